@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+
+namespace bladecurve {
+
+// What a file says beside its pixels.
+struct PhotoMetadata {
+  std::string format;                      // "jpeg", "png", "tiff", "heic"
+  int orientation = 1;                     // EXIF 1 to 8
+  std::optional<double> dpi;               // only if the file states a physical unit
+  std::optional<double> focal_length_px;   // from EXIF: 35 mm equivalent, or focal plane resolution
+  std::string sha256;                      // of the file's bytes, lower-case hex
+};
+
+// A decoded photograph. Pixels stay as stored (turning 12 MP costs more than finding the scissors);
+// coordinates that leave vision/ are turned by DisplayedFromStored instead.
+class Photo {
+ public:
+  // Throws Refused{kUnreadable} naming file, cause and remedy.
+  [[nodiscard]] static Photo Load(const std::filesystem::path& path);
+
+  [[nodiscard]] const cv::Mat& grey() const { return grey_; }  // CV_8UC1, encoded (not linear) luma
+  // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as will do.
+  [[nodiscard]] cv::Mat DecodeColour(int max_side) const;
+  [[nodiscard]] const PhotoMetadata& metadata() const { return metadata_; }
+
+  // Both as a viewer sees the picture; stored <-> displayed pixel coordinates.
+  [[nodiscard]] int displayed_width() const;
+  [[nodiscard]] int displayed_height() const;
+  [[nodiscard]] Eigen::Vector2d DisplayedFromStored(const Eigen::Vector2d& stored_px) const;
+  [[nodiscard]] Eigen::Vector2d StoredFromDisplayed(const Eigen::Vector2d& displayed_px) const;
+  [[nodiscard]] bool mirrored() const;  // stored and displayed differ by a reflection (2, 4, 5, 7)
+
+ private:
+  cv::Mat grey_;
+  PhotoMetadata metadata_;
+  std::string bytes_;  // the file, for DecodeColour
+};
+
+}  // namespace bladecurve
