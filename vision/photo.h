@@ -12,11 +12,11 @@ namespace bladecurve {
 
 // What a file says beside its pixels.
 struct PhotoMetadata {
-  std::string format;                      // "jpeg", "png", "tiff", "heic"
-  int orientation = 1;                     // EXIF 1 to 8
-  std::optional<double> dpi;               // only if the file states a physical unit
-  std::optional<double> focal_length_px;   // from EXIF: 35 mm equivalent, or focal plane resolution
-  std::string sha256;                      // of the file's bytes, lower-case hex
+  std::string format;                     // "jpeg", "png", "tiff", "heic"
+  int orientation = 1;                    // EXIF 1 to 8
+  std::optional<double> dpi;              // only if the file states a physical unit
+  std::optional<double> focal_length_px;  // from EXIF: 35 mm equivalent, or focal plane resolution
+  std::string sha256;                     // of the file's bytes, lower-case hex
 };
 
 // A decoded photograph. Pixels stay as stored (turning 12 MP costs more than finding the scissors);
@@ -27,7 +27,8 @@ class Photo {
   [[nodiscard]] static Photo Load(const std::filesystem::path& path);
 
   [[nodiscard]] const cv::Mat& grey() const { return grey_; }  // CV_8UC1, encoded (not linear) luma
-  // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as will do.
+  // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
+  // will do.
   [[nodiscard]] cv::Mat DecodeColour(int max_side) const;
   [[nodiscard]] const PhotoMetadata& metadata() const { return metadata_; }
 

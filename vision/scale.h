@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vision/photo.h"
+#include "vision/plane_map.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -19,55 +20,36 @@ namespace bladecurve {
 struct ScaleOptions {
   std::optional<double> mm_per_px;
   std::optional<double> dpi;
-  std::optional<double> length_mm;   // pivot to upper distal end; solved once both are known
-  std::optional<double> marker_mm;   // side of loose DICT_4X4_50 markers lying anywhere in the plane
+  std::optional<double> length_mm;  // pivot to upper distal end; solved once both are known
+  std::optional<double> marker_mm;  // side of loose DICT_4X4_50 markers lying anywhere in the plane
   std::optional<std::filesystem::path> card;  // a card description, "default" for the built-in one
-  double print_scale = 1.0;          // measured length of the check bar over its nominal 100 mm
-  std::optional<double> plane_height_mm;      // of the cutting edge above the printed sheet
+  double print_scale = 1.0;  // measured length of the check bar over its nominal 100 mm
+  std::optional<double> plane_height_mm;        // of the cutting edge above the printed sheet
   std::optional<std::filesystem::path> camera;  // CALIB.json
-  bool pixels = false;               // --units px: one "mm" is one pixel
+  bool pixels = false;                          // --units px: one "mm" is one pixel
 };
 
-// Image to mm in the plane of the cutting edges; lens distortion, tilt and blade height included. The plane frame is
-// right-handed as the *stored* picture is seen (y up); its origin and direction are arbitrary.
-class PlaneMap {
- public:
-  // Uniform scale, no perspective.
-  static PlaneMap Uniform(double mm_per_px, double relative_sigma, std::string source);
-
-  [[nodiscard]] Eigen::Vector2d PlaneFromImage(const Eigen::Vector2d& image_px) const;
-  [[nodiscard]] Eigen::Vector2d ImageFromPlane(const Eigen::Vector2d& plane_mm) const;
-  [[nodiscard]] Eigen::Matrix2d JacobianAt(const Eigen::Vector2d& image_px) const;  // d plane / d image
-  [[nodiscard]] double relative_sigma() const { return relative_sigma_; }
-  [[nodiscard]] const std::string& source() const { return source_; }  // "mm-per-px", "marker", "card", "dpi", ...
-  [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-
- private:
-  Eigen::Matrix3d plane_from_undistorted_ = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d camera_matrix_ = Eigen::Matrix3d::Identity();
-  double k1_ = 0, k2_ = 0, p1_ = 0, p2_ = 0;
-  double relative_sigma_ = 0;
-  std::string source_;
-  std::vector<std::string> warnings_;
-};
-
-// A printed marker seen in the picture: scene finding leaves it out, the tone curve is measured on it.
+// A printed marker seen in the picture: scene finding leaves it out, the tone curve is measured on
+// it.
 struct SeenMarker {
   int id = 0;
-  std::array<Eigen::Vector2d, 4> corners_px;       // sub-pixel; printed order, clockwise from the top left
+  std::array<Eigen::Vector2d, 4>
+      corners_px;  // sub-pixel; printed order, clockwise from the top left
   double corner_sigma_px = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ScaleResult {
-  std::optional<PlaneMap> map;         // absent only while length_mm waits for the scene
+  std::optional<PlaneMap> map;  // absent only while length_mm waits for the scene
   std::vector<SeenMarker> markers;
-  ToneCurve tone;                      // measured on the markers where there are any, else sRGB
+  ToneCurve tone;  // measured on the markers where there are any, else sRGB
 };
 
-// Throws Refused{kNoScale} where nothing says how many mm a pixel is, std::invalid_argument for contradictory options.
+// Throws Refused{kNoScale} where nothing says how many mm a pixel is, std::invalid_argument for
+// contradictory options.
 [[nodiscard]] ScaleResult FindScale(const Photo& photo, const ScaleOptions& options);
 
-// DICT_4X4_50 markers found on a small version of the picture (cheap), corners refined on the full one.
+// DICT_4X4_50 markers found on a small version of the picture (cheap), corners refined on the full
+// one.
 [[nodiscard]] std::vector<SeenMarker> FindMarkers(const cv::Mat& grey, const ToneCurve& tone);
 
 }  // namespace bladecurve

@@ -6,12 +6,13 @@
 
 namespace bladecurve {
 
-// Light from stored grey values: linear[v] in [0, 1] for v = 0..255. Edges are located in linear light; a blurred
-// edge found in encoded values is off by 0.15 to 1 px.
+// Light from stored grey values: linear[v] in [0, 1] for v = 0..255. Edges are located in linear
+// light; a blurred edge found in encoded values is off by 0.15 to 1 px.
 struct ToneCurve {
   std::array<float, 256> linear{};
-  bool measured = false;       // from a marker's known edges; else assumed sRGB
-  double gamma_sigma = 0.15;   // standard uncertainty of the effective exponent; feeds the edges' common offset
+  bool measured = false;  // from a marker's known edges; else assumed sRGB
+  double gamma_sigma =
+      0.15;  // standard uncertainty of the effective exponent; feeds the edges' common offset
 };
 
 // IEC 61966-2-1.
