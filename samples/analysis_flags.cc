@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "samples/analysis_flags.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "samples/flag_values.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+
+std::optional<double> Positive(const std::string& flag, const std::optional<std::string>& text) {
+  if (!text) return std::nullopt;
+  const double value = ParseNumber(flag, *text);
+  RequirePositive(flag, value);
+  return value;
+}
+
+// Two scales could contradict each other, and which one held would be a guess.
+void RequireOneScale(const AnalysisFlags& flags) {
+  const std::initializer_list<std::pair<const char*, bool>> scales = {
+      {"--card", flags.card.has_value()},
+      {"--marker-mm", flags.marker_mm.has_value()},
+      {"--mm-per-px", flags.mm_per_px.has_value()},
+      {"--dpi", flags.dpi.has_value()},
+      {"--length-mm", flags.length_mm.has_value()},
+      {"--units px", flags.units == "px"}};
+  std::string first;
+  for (const auto& [name, given] : scales) {
+    if (!given) continue;
+    if (!first.empty()) {
+      throw std::invalid_argument(
+          fmt::format("{} and {} each set the scale; give one of them", first, name));
+    }
+    first = name;
+  }
+}
+
+ScaleOptions ScaleFromFlags(const AnalysisFlags& flags) {
+  RequireOneScale(flags);
+  ScaleOptions scale;
+  scale.mm_per_px = Positive("--mm-per-px", flags.mm_per_px);
+  scale.dpi = Positive("--dpi", flags.dpi);
+  scale.length_mm = Positive("--length-mm", flags.length_mm);
+  scale.marker_mm = Positive("--marker-mm", flags.marker_mm);
+  if (flags.card) scale.card = *flags.card;
+  scale.print_scale = Positive("--print-scale", flags.print_scale).value_or(1.0);
+  if (flags.plane_height_mm) {
+    scale.plane_height_mm = ParseNumber("--plane-height-mm", *flags.plane_height_mm);
+  }
+  if (flags.camera) scale.camera = *flags.camera;
+  scale.pixels = flags.units == "px";
+  return scale;
+}
+
+Direction DirectionFromName(const std::string& name) {
+  if (name == "right") return Direction::kRight;
+  if (name == "left") return Direction::kLeft;
+  return name == "up" ? Direction::kUp : Direction::kDown;
+}
+
+SceneHints HintsFromFlags(const AnalysisFlags& flags) {
+  SceneHints hints;
+  if (flags.pivot) {
+    const auto xy = ParseNumbers("--pivot", *flags.pivot, 2, "X,Y");
+    hints.pivot_px = Eigen::Vector2d(xy[0], xy[1]);
+  }
+  if (flags.roi) {
+    const auto box = ParseNumbers("--roi", *flags.roi, 4, "X,Y,W,H");
+    RequirePositive("--roi width", box[2]);
+    RequirePositive("--roi height", box[3]);
+    hints.roi_px = {box[0], box[1], box[2], box[3]};
+  }
+  if (flags.tips_toward) hints.tips_toward = DirectionFromName(*flags.tips_toward);
+  if (flags.upper_is_left) hints.upper_is_left = true;
+  return hints;
+}
+
+std::vector<double> ThetaFromFlag(const std::optional<std::string>& theta_deg) {
+  if (!theta_deg) return {};
+  std::vector<double> theta_rad = ParseNumbers("--theta-deg", *theta_deg);
+  for (double& angle : theta_rad) {
+    if (!(angle > 0 && angle < 180)) {
+      throw std::invalid_argument(
+          fmt::format("--theta-deg: must lie between 0 and 180, got {}", angle));
+    }
+    angle *= kRadPerDeg;
+  }
+  return theta_rad;
+}
+
+int DegreeFromFlag(const std::string& text) {
+  const int degree = ParseWholeNumber("--degree", text);
+  if (degree < 1 || degree > 5) {
+    throw std::invalid_argument(fmt::format("--degree: must be 1 to 5, got {}", degree));
+  }
+  return degree;
+}
+
+// k inner knots part the edge into k + 1 polynomial pieces.
+int SpansFromFlag(const std::string& text) {
+  const int knots = ParseWholeNumber("--knots", text);
+  if (knots < 0 || knots > 1000) {
+    throw std::invalid_argument(fmt::format("--knots: must be 0 to 1000, got {}", knots));
+  }
+  return knots + 1;
+}
+
+FitOptions FitFromFlags(const AnalysisFlags& flags) {
+  FitOptions fit;
+  if (flags.family == "tapered-rectangle") fit.family = Family::kTaperedRectangle;
+  if (flags.family == "rigid-spline") fit.family = Family::kRigidSpline;
+  fit.gain = flags.gain == "free" ? std::nullopt : Positive("--gain", flags.gain);
+  if (flags.degree) fit.degree = DegreeFromFlag(*flags.degree);
+  if (flags.knots != "auto") fit.num_spans = SpansFromFlag(flags.knots);
+  fit.loss = flags.loss;
+  return fit;
+}
+
+int ThreadsFromFlag(const std::optional<std::string>& text) {
+  if (!text) return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int threads = ParseWholeNumber("--threads", *text);
+  RequirePositive("--threads", threads);
+  return threads;
+}
+
+void AddScaleFlags(CLI::App& command, AnalysisFlags* flags) {
+  const char* group =
+      "Scale (without any: a marker of the card if one is seen, else the file's own dpi)";
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group(group);
+  };
+  add("--card", flags->card, "The printed card in the picture: FILE, or 'default'");
+  add("--marker-mm", flags->marker_mm, "Side of the DICT_4X4_50 markers in the picture, mm");
+  add("--mm-per-px", flags->mm_per_px, "Millimetres a pixel, as from a calibrated stand");
+  add("--dpi", flags->dpi, "Pixels an inch of a flatbed scan");
+  add("--length-mm", flags->length_mm, "Pivot to distal end of the upper blade, mm");
+  add("--print-scale", flags->print_scale, "Measured length of the card's check bar over 100 mm");
+  add("--plane-height-mm", flags->plane_height_mm, "Height of the cutting edges above the sheet");
+  add("--camera", flags->camera, "CALIB.json: width, height, K, dist, as OpenCV means them");
+  add("--units", flags->units, "mm, or px: measure in pixels and say so")
+      ->check(CLI::IsMember({"mm", "px"}));
+}
+
+void AddHintFlags(CLI::App& command, AnalysisFlags* flags) {
+  const char* group = "Hints (pixels of the picture as it is shown)";
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group(group);
+  };
+  add("--theta-deg", flags->theta_deg, "Opening angle by protractor or encoder: T[,T...]");
+  add("--pivot", flags->pivot, "The screw's centre: X,Y");
+  add("--tips-toward", flags->tips_toward, "Where the tips point")
+      ->check(CLI::IsMember({"right", "left", "up", "down"}));
+  add("--roi", flags->roi, "The scissors to look at: X,Y,W,H");
+  command.add_flag("--upper-is-left", flags->upper_is_left, "The upper blade is the left one")
+      ->group(group);
+}
+
+void AddFitFlags(CLI::App& command, AnalysisFlags* flags) {
+  const auto add = [&](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Fit");
+  };
+  add("--family", flags->family, "auto, tapered-rectangle or rigid-spline")
+      ->check(CLI::IsMember({"auto", "tapered-rectangle", "rigid-spline"}));
+  add("--gain", flags->gain, "Gain of the tapered form, or 'free' (two angles or more)");
+  add("--degree", flags->degree, "Degree of the spline, 1 to 5");
+  add("--knots", flags->knots, "Inner knots of the spline, or 'auto'");
+  add("--loss", flags->loss, "none, huber, cauchy or tukey")
+      ->check(CLI::IsMember({"none", "huber", "cauchy", "tukey"}));
+}
+
+void AddRunFlags(CLI::App& command, AnalysisFlags* flags) {
+  command.add_option("--plan", flags->plan, "auto: leave out what a scene does not need; full")
+      ->check(CLI::IsMember({"auto", "full"}));
+  command.add_option("--debug", flags->debug, "Write a picture of every stage into this folder");
+  command.add_option("--threads", flags->threads, "How many photographs at a time");
+}
+
+}  // namespace
+
+void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags) {
+  AddScaleFlags(command, flags);
+  AddHintFlags(command, flags);
+  AddFitFlags(command, flags);
+  AddRunFlags(command, flags);
+}
+
+AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags) {
+  AnalysisSettings settings;
+  settings.measure.scale = ScaleFromFlags(flags);
+  settings.measure.hints = HintsFromFlags(flags);
+  settings.measure.full_plan = flags.plan == "full";
+  if (flags.debug) settings.measure.debug_dir = *flags.debug;
+  settings.theta_rad = ThetaFromFlag(flags.theta_deg);
+  settings.fit = FitFromFlags(flags);
+  settings.num_threads = ThreadsFromFlag(flags.threads);
+  return settings;
+}
+
+std::string SettingsLine(const AnalysisFlags& flags) {
+  std::string line = fmt::format("units={} family={} gain={} loss={} knots={} plan={}",
+                                 flags.units,
+                                 flags.family,
+                                 flags.gain,
+                                 flags.loss,
+                                 flags.knots,
+                                 flags.plan);
+  const std::initializer_list<std::pair<const char*, const std::optional<std::string>*>> optional =
+      {{"card", &flags.card},
+       {"marker-mm", &flags.marker_mm},
+       {"mm-per-px", &flags.mm_per_px},
+       {"dpi", &flags.dpi},
+       {"length-mm", &flags.length_mm},
+       {"print-scale", &flags.print_scale},
+       {"plane-height-mm", &flags.plane_height_mm},
+       {"camera", &flags.camera},
+       {"theta-deg", &flags.theta_deg},
+       {"pivot", &flags.pivot},
+       {"tips-toward", &flags.tips_toward},
+       {"roi", &flags.roi},
+       {"degree", &flags.degree}};
+  for (const auto& [name, value] : optional) {
+    if (*value) line += fmt::format(" {}={}", name, **value);
+  }
+  return flags.upper_is_left ? line + " upper-is-left" : line;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "samples/blade_record.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "samples/fitted_photo.h"
+
+namespace bladecurve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json PointRecord(const Eigen::Vector2d& point) { return Json::array({point.x(), point.y()}); }
+
+Json PointsRecord(const std::vector<Eigen::Vector2d>& points) {
+  Json record = Json::array();
+  for (const Eigen::Vector2d& point : points) record.push_back(PointRecord(point));
+  return record;
+}
+
+Json MatrixRecord(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json ShapeRecord(const TaperedRectangle& shape) {
+  return {
+      {"family", "tapered-rectangle"}, {"a_mm", shape.a_mm}, {"b", shape.b}, {"gain", shape.gain}};
+}
+
+Json ShapeRecord(const RigidSpline& shape) {
+  return {{"family", "rigid-spline"},
+          {"degree", shape.degree},
+          {"knots_mm", shape.knots_mm},
+          {"coefficients_mm", shape.coefficients_mm}};
+}
+
+Json CurveRecord(const BladeCurve& curve) {
+  return std::visit([](const auto& shape) { return ShapeRecord(shape); }, curve.shape());
+}
+
+Json DomainRecord(const CurveDomain& domain) {
+  return {{"x_mm", {domain.x_min_mm, domain.x_max_mm}},
+          {"theta_rad", {domain.theta_min_rad, domain.theta_max_rad}}};
+}
+
+Json AlternativesRecord(const BladeFit& fit) {
+  Json record = Json::array();
+  for (const FamilyFit& other : fit.alternatives) {
+    record.push_back({{"curve", CurveRecord(other.curve)},
+                      {"rms_mm", other.rms_mm},
+                      {"aicc", other.aicc},
+                      {"largest_difference_mm", fit.largest_difference_mm},
+                      {"largest_difference_torque", fit.largest_difference_torque}});
+  }
+  return record;
+}
+
+double MeanMmPerPx(const std::vector<PhotoMeasurement>& photos) {
+  double sum = 0;
+  for (const PhotoMeasurement& photo : photos) sum += photo.mm_per_px;
+  return sum / static_cast<double>(photos.size());
+}
+
+Json FitRecord(const Analysis& analysis) {
+  const FamilyFit& fit = analysis.fit.recommended;
+  return {{"rms_mm", fit.rms_mm},
+          {"rms_px", fit.rms_mm / MeanMmPerPx(analysis.photos)},
+          {"points", fit.points},
+          {"inliers", fit.inliers},
+          {"effective_points", fit.effective_points},
+          {"condition_number", fit.condition_number},
+          {"rank", fit.rank},
+          {"iterations", fit.iterations},
+          {"converged", fit.converged},
+          {"termination", fit.termination},
+          {"criterion",
+           {{"name", "aicc"}, {"value", fit.aicc}, {"why", analysis.fit.why_recommended}}}};
+}
+
+Json PlanRecord(const std::vector<StageRecord>& plan, bool times) {
+  Json record = Json::array();
+  for (const StageRecord& stage : plan) {
+    Json line = {{"stage", stage.stage}, {"ran", stage.ran}, {"why", stage.why}};
+    if (times) line["ms"] = stage.ms;
+    record.push_back(line);
+  }
+  return record;
+}
+
+// The curve fit as the last stage of each photograph; all share its time.
+std::vector<StageRecord> PlanWithFit(const PhotoMeasurement& photo, const Analysis& analysis) {
+  std::vector<StageRecord> plan = photo.plan;
+  const auto photos = static_cast<double>(analysis.photos.size());
+  plan.push_back({"fit", true, "all photographs together", analysis.fit_ms / photos});
+  return plan;
+}
+
+Json PhotoRecord(const Analysis& analysis, std::size_t index, bool times) {
+  const PhotoMeasurement& photo = analysis.photos[index];
+  const FittedPhoto fitted = ApplyPose(photo, analysis.fit.poses[index]);
+  const std::vector<StageRecord> plan = PlanWithFit(photo, analysis);
+  Json record = {{"file", photo.file},
+                 {"sha256", photo.sha256},
+                 {"width", photo.width},
+                 {"height", photo.height},
+                 {"pivot_px", PointRecord(fitted.pivot_px)},
+                 {"pivot_sigma_px", fitted.pivot_sigma_px},
+                 {"pivot_source", photo.pivot_source},
+                 {"axis_px", PointRecord(fitted.axis_px)},
+                 {"theta_rad", fitted.theta_rad},
+                 {"theta_sigma_rad", fitted.theta_sigma_rad},
+                 {"theta_source", photo.theta_source},
+                 {"mm_per_px", photo.mm_per_px},
+                 {"mm_per_px_sigma", photo.mm_per_px_sigma},
+                 {"scale_source", photo.scale_source},
+                 {"rms_mm", analysis.fit.poses[index].rms_mm},
+                 {"upper_edge_px", PointsRecord(photo.upper_edge_px)},
+                 {"upper_edge_mm", PointsRecord(fitted.upper_edge_mm)},
+                 {"upper_edge_sigma_px", photo.upper_edge_sigma_px},
+                 {"lower_edge_px", PointsRecord(photo.lower_edge_px)},
+                 {"upper_end_px", PointRecord(photo.upper_end_px)},
+                 {"lower_end_px", PointRecord(photo.lower_end_px)},
+                 {"warnings", photo.warnings},
+                 {"plan", PlanRecord(plan, times)}};
+  if (times) record["ms_total"] = photo.ms_total + plan.back().ms;
+  return record;
+}
+
+Json PhotosRecord(const Analysis& analysis, bool times) {
+  Json record = Json::array();
+  for (std::size_t i = 0; i < analysis.photos.size(); ++i) {
+    record.push_back(PhotoRecord(analysis, i, times));
+  }
+  return record;
+}
+
+// A line a key: readable and comparable line by line, without a line for each of a thousand
+// numbers.
+std::string LineAKey(const Json& record) {
+  std::string text;
+  for (const auto& [key, value] : record.items()) {
+    text += text.empty() ? "{\n" : ",\n";
+    text += Json(key).dump() + ": ";
+    text += value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  return text + "\n}\n";
+}
+
+}  // namespace
+
+std::vector<std::string> Warnings(const Analysis& analysis) {
+  std::vector<std::string> warnings;
+  const auto add = [&warnings](const std::vector<std::string>& codes) {
+    for (const std::string& code : codes) {
+      if (std::find(warnings.begin(), warnings.end(), code) == warnings.end()) {
+        warnings.push_back(code);
+      }
+    }
+  };
+  for (const PhotoMeasurement& photo : analysis.photos) add(photo.warnings);
+  add(analysis.fit.warnings);
+  return warnings;
+}
+
+std::string Status(const Analysis& analysis) {
+  return Warnings(analysis).empty() ? "ok" : "review";
+}
+
+std::string BladeRecordText(const Analysis& analysis, const RecordOptions& options) {
+  const FamilyFit& fit = analysis.fit.recommended;
+  const Json record = {
+      {"format", "bladecurve/1"},
+      {"name", options.name},
+      {"status", Status(analysis)},
+      {"warnings", Warnings(analysis)},
+      {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
+      {"curve", CurveRecord(fit.curve)},
+      {"alternatives", AlternativesRecord(analysis.fit)},
+      {"domain", DomainRecord(fit.curve.domain())},
+      {"covariance",
+       {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
+      {"fit", FitRecord(analysis)},
+      {"photos", PhotosRecord(analysis, options.times)}};
+  return LineAKey(record);
+}
+
+}  // namespace bladecurve
