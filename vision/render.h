@@ -12,11 +12,12 @@
 
 namespace bladecurve {
 
-// A cutting edge as one cubic over [from_mm, to_mm] in its blade's frame (upper blade: v = s(u), lower blade: v mirrored).
+// A cutting edge as one cubic over [from_mm, to_mm] in its blade's frame (upper blade: v = s(u),
+// lower blade: v mirrored).
 struct EdgeShape {
-  double from_mm = 0, to_mm = 0;          // u of heel and distal end
-  std::array<double, 4> bernstein_mm{};   // the last is 0: theta is measured to the distal end
-  [[nodiscard]] double At(double u_mm) const;     // beyond the ends: linear continuation
+  double from_mm = 0, to_mm = 0;               // u of heel and distal end
+  std::array<double, 4> bernstein_mm{};        // the last is 0: theta is measured to the distal end
+  [[nodiscard]] double At(double u_mm) const;  // beyond the ends: linear continuation
   [[nodiscard]] double SlopeAt(double u_mm) const;
 };
 
@@ -25,7 +26,7 @@ struct EdgeTruth {
   std::vector<Eigen::Vector2d> blade_mm;     // (u, s(u)), heel to distal end
   std::vector<Eigen::Vector2d> scissors_mm;  // the same in physics.md's frame
   std::vector<Eigen::Vector2d> px;           // the same in the picture
-  double free_from_mm = 0;                   // u of the crotch: from there to the distal end nothing lies beside it
+  double free_from_mm = 0;  // u of the crotch: from there to the distal end nothing lies beside it
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();  // distal end
 };
 
@@ -43,14 +44,17 @@ struct CameraTruth {
   double k1 = 0;
 };
 
-// What a perfect measurement of the picture would say. Pixels: centre of the top-left one is (0, 0).
+// What a perfect measurement of the picture would say. Pixels: centre of the top-left one is (0,
+// 0).
 struct SceneTruth {
   int width = 0, height = 0;
   double theta_rad = 0;
-  Eigen::Vector2d pivot_px = Eigen::Vector2d::Zero();  // of the pivot's axis, at the height of the edges
-  Eigen::Vector2d screw_px = Eigen::Vector2d::Zero();  // centre of the screw's rim; parallax parts the two
+  Eigen::Vector2d pivot_px =
+      Eigen::Vector2d::Zero();  // of the pivot's axis, at the height of the edges
+  Eigen::Vector2d screw_px =
+      Eigen::Vector2d::Zero();  // centre of the screw's rim; parallax parts the two
   Eigen::Vector2d axis_px = Eigen::Vector2d::UnitX();  // image of +x at the pivot, unit
-  double mm_per_px = 0;                                // at the pivot along the axis, height of the edges
+  double mm_per_px = 0;  // at the pivot along the axis, height of the edges
   double edge_height_mm = 0;
   EdgeTruth upper, lower;
   std::vector<MarkerTruth> markers;
@@ -63,8 +67,8 @@ struct RenderedPhoto {
   SceneTruth truth;
 };
 
-// The photograph that the camera would take of the scene. The outlines' share in every pixel, blurred by the lens, is
-// exact to 1e-3 for blur >= 0.5 px; the same spec gives the same bytes.
+// The photograph that the camera would take of the scene. The outlines' share in every pixel,
+// blurred by the lens, is exact to 1e-3 for blur >= 0.5 px; the same spec gives the same bytes.
 // Throws std::invalid_argument naming a field of the spec that cannot be.
 [[nodiscard]] RenderedPhoto RenderScene(const SceneSpec& spec);
 
