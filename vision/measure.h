@@ -12,6 +12,7 @@
 
 #include "vision/edge_points.h"
 #include "vision/scale.h"
+#include "vision/stage_log.h"
 
 namespace bladecurve {
 
@@ -31,14 +32,6 @@ struct MeasureOptions {
   SceneHints hints;
   bool full_plan = false;                       // --plan full: run every stage, needed or not
   std::optional<std::filesystem::path> debug_dir;  // pictures of every stage
-};
-
-// One line of "plan" in the result: what ran, what was left out, and why.
-struct StageRecord {
-  std::string stage;
-  bool ran = false;
-  std::string why;
-  double ms = 0;
 };
 
 // All that one photograph gives. Pixels are displayed pixels.

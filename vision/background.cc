@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/background.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+constexpr int kTerms = BackgroundModel::kTerms;
+using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+constexpr int kSamples = 6000;   // enough for 10 terms; more costs time and changes nothing
+constexpr int kIterations = 15;  // reweighting has settled well before
+constexpr double kScatterFloor =
+    0.5;  // grey or Lab units: rounding and JPEG noise of a clean catalogue picture
+
+Terms TermsAt(double x, double y) {
+  Terms t;
+  t << 1, x, y, x * x, x * y, y * y, x * x * x, x * x * y, x * y * y, y * y * y;
+  return t;
+}
+
+struct Samples {
+  Eigen::Matrix<double, Eigen::Dynamic, kTerms> terms;
+  Eigen::MatrixXd values;  // one column a channel
+};
+
+Samples TakeSamples(const cv::Mat& image, const cv::Mat& ignore) {
+  const int channels = image.channels();
+  // A stride that shares no factor with usual widths walks over all columns.
+  int stride = std::max(1, static_cast<int>(image.total() / kSamples)) | 1;
+  while (image.cols % stride == 0 && stride > 1) stride += 2;
+  Samples samples;
+  const int most = static_cast<int>(image.total()) / stride + 1;
+  samples.terms.resize(most, kTerms);
+  samples.values.resize(most, channels);
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(image.total()); i += stride) {
+    const int row = i / image.cols;
+    const int col = i % image.cols;
+    if (!ignore.empty() && ignore.at<uchar>(row, col) != 0) continue;
+    samples.terms.row(count) =
+        TermsAt((2.0 * col + 1) / image.cols - 1, (2.0 * row + 1) / image.rows - 1).transpose();
+    const float* pixel = image.ptr<float>(row) + static_cast<std::ptrdiff_t>(col) * channels;
+    for (int c = 0; c < channels; ++c) samples.values(count, c) = pixel[c];
+    ++count;
+  }
+  samples.terms.conservativeResize(count, Eigen::NoChange);
+  samples.values.conservativeResize(count, Eigen::NoChange);
+  return samples;
+}
+
+// 1.4826 x median absolute residual, over the samples that still count as background.
+double RobustScatter(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) {
+  constexpr double kStillBackground = 0.05;
+  std::vector<double> sizes;
+  sizes.reserve(static_cast<std::size_t>(residuals.size()));
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    if (weights[i] > kStillBackground) sizes.push_back(std::abs(residuals[i]));
+  }
+  if (sizes.empty()) return kScatterFloor;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return 1.4826 * *middle + kScatterFloor;
+}
+
+// The background's value along one row of a window, a cubic in x, for one channel.
+class RowOfBackground {
+ public:
+  RowOfBackground(const std::array<double, kTerms>& k,
+                  const Window& window,
+                  const cv::Size& size,
+                  int row) {
+    const double step_y = window.area_px.height / size.height;
+    const double y = 2 * (window.area_px.y + (row + 0.5) * step_y) / window.full_size.height - 1;
+    c0_ = static_cast<float>(k[0] + y * (k[2] + y * (k[5] + y * k[9])));
+    c1_ = static_cast<float>(k[1] + y * (k[4] + y * k[8]));
+    c2_ = static_cast<float>(k[3] + y * k[7]);
+    c3_ = static_cast<float>(k[6]);
+    const double step_x = window.area_px.width / size.width;
+    x0_ = static_cast<float>(2 * (window.area_px.x + 0.5 * step_x) / window.full_size.width - 1);
+    dx_ = static_cast<float>(2 * step_x / window.full_size.width);
+  }
+  float operator()(int col) const {
+    const float x = x0_ + dx_ * static_cast<float>(col);
+    return c0_ + x * (c1_ + x * (c2_ + x * c3_));
+  }
+
+ private:
+  float c0_, c1_, c2_, c3_, x0_, dx_;
+};
+
+}  // namespace
+
+BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
+  const Samples samples = TakeSamples(image, ignore);
+  const int channels = image.channels();
+  const Eigen::Index count = samples.terms.rows();
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(count);
+  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(kTerms, channels);
+  BackgroundModel model;
+  model.scatter.assign(static_cast<std::size_t>(channels), kScatterFloor);
+  for (int iteration = 0; iteration < kIterations && count >= kTerms; ++iteration) {
+    const Eigen::Matrix<double, kTerms, Eigen::Dynamic> weighted =
+        samples.terms.transpose() * weights.asDiagonal();
+    const Eigen::Matrix<double, kTerms, kTerms> normal =
+        weighted * samples.terms + 1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+    coefficients = normal.ldlt().solve(weighted * samples.values);
+    const Eigen::MatrixXd residuals = samples.values - samples.terms * coefficients;
+    Eigen::VectorXd squared = Eigen::VectorXd::Zero(count);
+    for (int c = 0; c < channels; ++c) {
+      const double scatter = RobustScatter(residuals.col(c), weights);
+      model.scatter[static_cast<std::size_t>(c)] = scatter;
+      squared += (residuals.col(c) / scatter).cwiseAbs2();
+    }
+    // Squared Cauchy weights: scissors that cover a third of the picture have no say.
+    weights = (1 + squared.array() / 4).inverse().square().matrix();
+  }
+  for (int c = 0; c < channels; ++c) {
+    std::array<double, kTerms> row{};
+    for (int t = 0; t < kTerms; ++t) row[static_cast<std::size_t>(t)] = coefficients(t, c);
+    model.coefficients.push_back(row);
+  }
+  return model;
+}
+
+cv::Mat DistanceFromBackground(const cv::Mat& image,
+                               const BackgroundModel& background,
+                               const Window& window) {
+  const int channels = image.channels();
+  cv::Mat distance(image.size(), CV_32FC1);
+  std::vector<float> squared(static_cast<std::size_t>(image.cols));
+  for (int row = 0; row < image.rows; ++row) {
+    std::fill(squared.begin(), squared.end(), 0.0f);
+    const float* pixels = image.ptr<float>(row);
+    for (int c = 0; c < channels; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const RowOfBackground expected(background.coefficients[channel], window, image.size(), row);
+      const auto inverse = static_cast<float>(1 / background.scatter[channel]);
+      for (int col = 0; col < image.cols; ++col) {
+        const float off = (pixels[col * channels + c] - expected(col)) * inverse;
+        squared[static_cast<std::size_t>(col)] += off * off;
+      }
+    }
+    float* out = distance.ptr<float>(row);
+    for (int col = 0; col < image.cols; ++col) {
+      out[col] = std::sqrt(squared[static_cast<std::size_t>(col)]);
+    }
+  }
+  return distance;
+}
+
+cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr,
+                                     const BackgroundModel& background,
+                                     const Window& window) {
+  constexpr float kDeepestShadow = 0.15f;  // darker than that is no shadow but something black
+  cv::Mat distance(bgr.size(), CV_32FC1);
+  std::array<float, 3> inverse{};
+  for (std::size_t c = 0; c < 3; ++c) inverse[c] = static_cast<float>(1 / background.scatter[c]);
+  for (int row = 0; row < bgr.rows; ++row) {
+    const RowOfBackground rows[3] = {{background.coefficients[0], window, bgr.size(), row},
+                                     {background.coefficients[1], window, bgr.size(), row},
+                                     {background.coefficients[2], window, bgr.size(), row}};
+    const cv::Vec3f* pixels = bgr.ptr<cv::Vec3f>(row);
+    float* out = distance.ptr<float>(row);
+    for (int col = 0; col < bgr.cols; ++col) {
+      const cv::Vec3f light(rows[0](col), rows[1](col), rows[2](col));
+      const float best = pixels[col].dot(light) / std::max(1e-3f, light.dot(light));
+      const float shade = std::clamp(best, kDeepestShadow, 1.0f);
+      float squared = 0;
+      for (int c = 0; c < 3; ++c) {
+        const float off =
+            (pixels[col][c] - shade * light[c]) * inverse[static_cast<std::size_t>(c)];
+        squared += off * off;
+      }
+      out[col] = std::sqrt(squared);
+    }
+  }
+  return distance;
+}
+
+}  // namespace bladecurve

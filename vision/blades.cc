@@ -1,0 +1,424 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/blades.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+Vector2d ToVector(const cv::Point& p) { return {p.x, p.y}; }
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// A deep inlet of the contour: between the hull points `start` and `end`, deepest at `far` (indices
+// into the contour).
+struct Inlet {
+  int start = 0, far = 0, end = 0;
+  double depth = 0;
+};
+
+class Outline {
+ public:
+  explicit Outline(const std::vector<cv::Point>& contour) : points_(contour) {}
+
+  [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
+  [[nodiscard]] int Wrap(int i) const { return ((i % size()) + size()) % size(); }
+  [[nodiscard]] Vector2d At(int i) const {
+    return ToVector(points_[static_cast<std::size_t>(Wrap(i))]);
+  }
+  // Points from index `from` on, forwards, up to and with `to`.
+  [[nodiscard]] std::vector<Vector2d> Arc(int from, int to) const {
+    std::vector<Vector2d> arc;
+    const int steps = Wrap(to - from);
+    arc.reserve(static_cast<std::size_t>(steps) + 1);
+    for (int k = 0; k <= steps; ++k) arc.push_back(At(from + k));
+    return arc;
+  }
+
+ private:
+  const std::vector<cv::Point>& points_;
+};
+
+std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
+  // Shallower ones are ragged borders and the waists of rings.
+  constexpr double kShallowestShare = 0.03;
+  std::vector<Inlet> inlets;
+  if (contour.size() < 30) return inlets;
+  std::vector<int> hull;
+  cv::convexHull(contour, hull, false, false);
+  std::sort(hull.begin(), hull.end());
+  const cv::Rect box = cv::boundingRect(contour);
+  const double shallowest = std::max(3.0, kShallowestShare * std::max(box.width, box.height));
+  const Outline outline(contour);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    Inlet inlet;
+    inlet.start = hull[k];
+    inlet.end = hull[(k + 1) % hull.size()];
+    const Vector2d a = outline.At(inlet.start);
+    const Vector2d chord = outline.At(inlet.end) - a;
+    const double length = chord.norm();
+    if (length < 2) continue;
+    const int steps = outline.Wrap(inlet.end - inlet.start);
+    for (int i = 1; i < steps; ++i) {
+      const double depth = std::abs(Cross(chord, outline.At(inlet.start + i) - a)) / length;
+      if (depth > inlet.depth) {
+        inlet.depth = depth;
+        inlet.far = outline.Wrap(inlet.start + i);
+      }
+    }
+    if (inlet.depth >= shallowest) inlets.push_back(inlet);
+  }
+  return inlets;
+}
+
+// Index on the arc `from`..`to` of the point furthest from `origin`, among those that lie ahead of
+// it in `direction`; -1 if none does.
+int FurthestAhead(
+    const Outline& outline, int from, int to, const Vector2d& origin, const Vector2d& direction) {
+  int best = -1;
+  double best_distance = 0;
+  const int steps = outline.Wrap(to - from);
+  for (int k = 0; k <= steps; ++k) {
+    const Vector2d offset = outline.At(from + k) - origin;
+    if (offset.dot(direction) > 0 && offset.norm() > best_distance) {
+      best_distance = offset.norm();
+      best = outline.Wrap(from + k);
+    }
+  }
+  return best;
+}
+
+// Width of the filled silhouette across the line crotch-tip at the share `t` of its length.
+double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& to, double t) {
+  const Vector2d along = (to - from).normalized();
+  const Vector2d across(-along.y(), along.x());
+  const Vector2d center = from + t * (to - from);
+  const double reach = 0.35 * (to - from).norm();
+  const auto inside = [&](const Vector2d& p) {
+    const int x = static_cast<int>(std::lround(p.x()));
+    const int y = static_cast<int>(std::lround(p.y()));
+    return x >= 0 && y >= 0 && x < filled.cols && y < filled.rows && filled.at<uchar>(y, x) != 0;
+  };
+  // The longest run that starts close to the line: the blade's inner side is the line, or nearly.
+  double longest = 0;
+  double run = 0;
+  for (double d = -reach; d <= reach; d += 0.5) {
+    if (inside(center + d * across)) {
+      run += 0.5;
+      longest = std::max(longest, run);
+    } else {
+      run = 0;
+    }
+  }
+  return longest;
+}
+
+// Sag and roughness of a polyline about the parabola through it, relative to its chord.
+void DescribeSide(const std::vector<Vector2d>& side, BladeContour* blade) {
+  const Vector2d origin = side.front();
+  const Vector2d chord = side.back() - origin;
+  const double length = chord.norm();
+  if (length < 4 || side.size() < 6) {
+    blade->roughness = 1;
+    return;
+  }
+  const Vector2d along = chord / length;
+  Eigen::MatrixXd terms(static_cast<Eigen::Index>(side.size()), 3);
+  Eigen::VectorXd offsets(static_cast<Eigen::Index>(side.size()));
+  for (std::size_t i = 0; i < side.size(); ++i) {
+    const Vector2d p = side[i] - origin;
+    const double t = p.dot(along) / length;
+    terms.row(static_cast<Eigen::Index>(i)) << 1, t, t * t;
+    offsets[static_cast<Eigen::Index>(i)] = Cross(along, p) / length;
+  }
+  const Eigen::Vector3d k = (terms.transpose() * terms).ldlt().solve(terms.transpose() * offsets);
+  blade->bend = std::abs(k[2]) / 4;
+  blade->roughness =
+      std::sqrt((offsets - terms * k).squaredNorm() / static_cast<double>(side.size()));
+}
+
+// Whether any of the points lies at the frame, or where something hides what goes on (`hidden`, may
+// be empty).
+bool RunsOutOfSight(const std::vector<Vector2d>& points,
+                    const cv::Mat& hidden,
+                    const cv::Size& size) {
+  const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
+  return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
+    const cv::Point at(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    if (!inner.contains(at)) return true;
+    return !hidden.empty() && cv::countNonZero(hidden(cv::Rect(at.x - 2, at.y - 2, 5, 5))) > 0;
+  });
+}
+
+// The blade on one side of the crotch. `inner` from crotch to tip, `outer` from the tip on to the
+// next concavity.
+BladeContour DescribeBlade(const Silhouette& silhouette,
+                           std::vector<Vector2d> inner,
+                           std::vector<Vector2d> outer) {
+  BladeContour blade;
+  blade.tip = inner.back();
+  const Vector2d crotch = inner.front();
+  blade.length = (blade.tip - crotch).norm();
+  DescribeSide(inner, &blade);
+  blade.width = WidthAcross(silhouette.filled, crotch, blade.tip, 0.5);
+  const double near_tip = std::max(WidthAcross(silhouette.filled, crotch, blade.tip, 0.88),
+                                   WidthAcross(silhouette.filled, crotch, blade.tip, 0.95));
+  blade.taper = near_tip / std::max(blade.width, 1.0);
+  std::vector<Vector2d> end;
+  const auto near = [&](const Vector2d& p) { return (p - blade.tip).norm() < 0.15 * blade.length; };
+  std::copy_if(inner.begin(), inner.end(), std::back_inserter(end), near);
+  std::copy_if(outer.begin(), outer.end(), std::back_inserter(end), near);
+  blade.cut_off = RunsOutOfSight(end, {}, silhouette.filled.size());
+  blade.inner = std::move(inner);
+  blade.outer = std::move(outer);
+  return blade;
+}
+
+// The two inlets on the axis of the scissors: the gap between the blades, and the one between the
+// shanks.
+struct Crossing {
+  const Inlet* gap;
+  const Inlet* back;
+};
+
+// The free end of a shank: a ring, or where the frame cuts it off.
+struct ShankEnd {
+  Vector2d point;
+  double length = 0;
+  double flare = 0;  // widest near the end over the width half way; a ring has > 1.5
+  bool cut_off = false;
+};
+
+ShankEnd DescribeShank(const Silhouette& silhouette,
+                       const cv::Mat& hidden,
+                       const std::vector<Vector2d>& arc,
+                       const Vector2d& point,
+                       const Vector2d& shank_crotch) {
+  ShankEnd end;
+  end.point = point;
+  end.length = (point - shank_crotch).norm();
+  double widest = 0;
+  for (const double t : {0.75, 0.83, 0.9, 0.95}) {
+    widest = std::max(widest, WidthAcross(silhouette.filled, shank_crotch, point, t));
+  }
+  const double middle = std::max(1.0, WidthAcross(silhouette.filled, shank_crotch, point, 0.4));
+  end.flare = widest / middle;
+  end.cut_off = RunsOutOfSight(arc, hidden, silhouette.filled.size());
+  return end;
+}
+
+// Falls from 1 at `good` to 0 at `bad`.
+double Grade(double value, double good, double bad) {
+  return std::clamp((bad - value) / (bad - good), 0.0, 1.0);
+}
+
+struct GradePart {
+  double grade;
+  const char* doubt;
+};
+
+void Apply(std::initializer_list<GradePart> parts, BladePair* pair) {
+  for (const GradePart& part : parts) {
+    pair->quality *= part.grade;
+    if (part.grade < pair->worst_grade) {
+      pair->worst_grade = part.grade;
+      pair->doubt = part.doubt;
+    }
+  }
+}
+
+// How much the two limbs beside the gap look like blades.
+void GradeBlades(BladePair* pair) {
+  const BladeContour& a = pair->first;
+  const BladeContour& b = pair->second;
+  const double longer = std::max(a.length, b.length);
+  const double wider = std::max(a.width, b.width);
+  Apply({{Grade(std::max(a.roughness, b.roughness), 0.02, 0.08), "an edge is not smooth"},
+         {Grade(std::max(a.bend, b.bend), 0.08, 0.22), "a blade is strongly bent"},
+         {Grade(std::max(a.taper, b.taper), 1.0, 1.5), "a blade widens towards its end"},
+         {Grade(wider / longer, 0.30, 0.60), "a limb is too wide for a blade"},
+         {Grade(1 - std::min(a.length, b.length) / longer, 0.25, 0.55),
+          "the blades differ in length"},
+         {Grade(wider / std::max(1.0, std::min(a.width, b.width)), 2.5, 5.0),
+          "the blades differ in width"}},
+        pair);
+}
+
+// Whether the rest is what blades hang on: each blade goes on, through the crossing, as the
+// opposite shank.
+void GradeMembers(const ShankEnd& shank_first, const ShankEnd& shank_second, BladePair* pair) {
+  const Vector2d center = 0.5 * (pair->crotch + *pair->shank_crotch);
+  const auto straightness = [&](const Vector2d& tip, const ShankEnd& shank) {
+    return -(tip - center).normalized().dot((shank.point - center).normalized());
+  };
+  const double straight = std::min(straightness(pair->first.tip, shank_first),
+                                   straightness(pair->second.tip, shank_second));
+  const auto ring = [](const ShankEnd& shank) {
+    return shank.cut_off ? 0.9 : 1 - Grade(shank.flare, 1.0, 1.6) * 0.8;
+  };
+  // What runs out of sight may go on as long as it likes.
+  const auto reach = [](const ShankEnd& shank) { return shank.cut_off ? 1e9 : shank.length; };
+  const double shorter_shank = std::min(reach(shank_first), reach(shank_second));
+  const double blade = std::max(pair->first.length, pair->second.length);
+  Apply({{Grade(-straight, -0.88, -0.55), "blades and shanks do not line up"},
+         {ring(shank_first) * ring(shank_second), "no rings"},
+         {Grade((pair->crotch - *pair->shank_crotch).norm() / blade, 3.0, 5.0),
+          "the blades are short against their overlap"},
+         {0.3 + 0.7 * Grade(-shorter_shank / blade, -0.8, -0.2), "a shank is short"}},
+        pair);
+}
+
+// Width of the silhouette across `axis` through `center`, and the middle of that width.
+std::pair<double, Vector2d> SpanAcross(const cv::Mat& filled,
+                                       const Vector2d& center,
+                                       const Vector2d& axis) {
+  const Vector2d across(-axis.y(), axis.x());
+  const auto reach = [&](double sign) {
+    double d = 0;
+    for (; d < filled.cols + filled.rows; d += 0.5) {
+      const Vector2d p = center + sign * d * across;
+      const cv::Point q(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+      if (!cv::Rect({0, 0}, filled.size()).contains(q) || filled.at<uchar>(q) == 0) break;
+    }
+    return d;
+  };
+  const double up = reach(1);
+  const double down = reach(-1);
+  return {up + down, center + 0.5 * (up - down) * across};
+}
+
+// Where the members cross: the silhouette is narrowest there, between crotch and shank crotch.
+void PlacePivot(const cv::Mat& filled, BladePair* pair) {
+  const Vector2d back = *pair->shank_crotch;
+  const Vector2d overlap = pair->crotch - back;
+  const Vector2d axis = overlap.normalized();
+  constexpr int kSteps = 60;
+  std::vector<double> widths;
+  std::vector<Vector2d> centers;
+  for (int k = 0; k <= kSteps; ++k) {
+    const double t = 0.1 + 0.8 * k / kSteps;
+    const auto [width, center] = SpanAcross(filled, back + t * overlap, axis);
+    widths.push_back(width);
+    centers.push_back(center);
+  }
+  const double narrowest = *std::min_element(widths.begin(), widths.end());
+  // The waist is flat where the members cross at a small angle: take the middle of all that is
+  // nearly as narrow.
+  double sum = 0;
+  double spread = 0;
+  Vector2d mean = Vector2d::Zero();
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const double weight = std::max(0.0, 1.12 * narrowest + 1 - widths[k]);
+    sum += weight;
+    mean += weight * centers[k];
+  }
+  mean /= sum;
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    const double weight = std::max(0.0, 1.12 * narrowest + 1 - widths[k]);
+    spread += weight * std::pow((centers[k] - mean).dot(axis), 2);
+  }
+  const Vector2d middle = 0.5 * (pair->crotch + back);
+  pair->shank_width = narrowest;
+  pair->pivot = mean;
+  pair->pivot_sigma =
+      std::max({0.1 * narrowest, std::sqrt(spread / sum), 0.25 * (mean - middle).norm()});
+}
+
+// The part of a blade's far side that faces the tip: from the tip back to beside the crotch.
+std::vector<Vector2d> AheadOf(std::vector<Vector2d> arc,
+                              const Vector2d& crotch,
+                              const Vector2d& axis) {
+  const auto behind = std::find_if(
+      arc.begin(), arc.end(), [&](const Vector2d& p) { return (p - crotch).dot(axis) < 0; });
+  arc.erase(behind, arc.end());
+  return arc;
+}
+
+std::optional<BladePair> PairAt(const Silhouette& silhouette,
+                                const cv::Mat& hidden,
+                                const Crossing& at) {
+  const Outline outline(silhouette.contour);
+  const int gap = at.gap->far;
+  const int back = at.back->far;
+  BladePair pair;
+  pair.quality = 1;
+  pair.crotch = outline.At(gap);
+  pair.shank_crotch = outline.At(back);
+  const Vector2d axis = (pair.crotch - *pair.shank_crotch).normalized();
+  // Clockwise: back, shank of the second blade, first blade, gap, second blade, shank of the first,
+  // back.
+  const int tip_first = FurthestAhead(outline, back, gap, pair.crotch, axis);
+  const int tip_second = FurthestAhead(outline, gap, back, pair.crotch, axis);
+  const int end_first = FurthestAhead(outline, gap, back, *pair.shank_crotch, -axis);
+  const int end_second = FurthestAhead(outline, back, gap, *pair.shank_crotch, -axis);
+  if (std::min({tip_first, tip_second, end_first, end_second}) < 0) return std::nullopt;
+  std::vector<Vector2d> inner_first = outline.Arc(tip_first, gap);
+  std::reverse(inner_first.begin(), inner_first.end());
+  std::vector<Vector2d> outer_first = outline.Arc(end_second, tip_first);
+  std::reverse(outer_first.begin(), outer_first.end());
+  pair.first = DescribeBlade(
+      silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair.crotch, axis));
+  pair.second = DescribeBlade(silhouette,
+                              outline.Arc(gap, tip_second),
+                              AheadOf(outline.Arc(tip_second, end_first), pair.crotch, axis));
+  if (std::min(pair.first.length, pair.second.length) < 8) return std::nullopt;
+  GradeBlades(&pair);
+  if (pair.quality <= 0) return std::nullopt;
+  GradeMembers(DescribeShank(silhouette,
+                             hidden,
+                             outline.Arc(tip_second, back),
+                             outline.At(end_first),
+                             *pair.shank_crotch),
+               DescribeShank(silhouette,
+                             hidden,
+                             outline.Arc(back, tip_first),
+                             outline.At(end_second),
+                             *pair.shank_crotch),
+               &pair);
+  if (pair.quality <= 0) return std::nullopt;
+  PlacePivot(silhouette.filled, &pair);
+  const double wider = std::max(pair.first.width, pair.second.width);
+  Apply({{Grade(-pair.shank_width / std::max(1.0, wider), -0.6, -0.25), "the blades do not join"}},
+        &pair);
+  return pair;
+}
+
+// The deepest inlets, in the order of the contour.
+void KeepDeepest(std::size_t most, std::vector<Inlet>* inlets) {
+  if (inlets->size() <= most) return;
+  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
+    return a.depth > b.depth;
+  });
+  inlets->resize(most);
+  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
+    return a.start < b.start;
+  });
+}
+
+}  // namespace
+
+std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Mat& hidden) {
+  std::vector<Inlet> inlets = FindInlets(silhouette.contour);
+  KeepDeepest(8, &inlets);
+  std::vector<BladePair> pairs;
+  const std::size_t n = inlets.size();
+  for (std::size_t gap = 0; gap < n; ++gap) {
+    for (std::size_t back = 0; back < n; ++back) {
+      if (gap == back) continue;
+      std::optional<BladePair> pair = PairAt(silhouette, hidden, {&inlets[gap], &inlets[back]});
+      if (pair) pairs.push_back(std::move(*pair));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const BladePair& a, const BladePair& b) {
+    return a.quality > b.quality;
+  });
+  return pairs;
+}
+
+}  // namespace bladecurve

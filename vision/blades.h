@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/silhouette.h"
+
+namespace bladecurve {
+
+// One blade as the contour shows it, in pixels of the mask. `inner` runs from the crotch to the
+// tip: the cutting edge.
+struct BladeContour {
+  std::vector<Eigen::Vector2d> inner;
+  std::vector<Eigen::Vector2d> outer;  // from the tip back to the concavity beside the pivot
+  Eigen::Vector2d tip;
+  double length = 0;  // crotch to tip
+  double width = 0;   // half way along
+  double taper = 0;   // width near the tip over width half way; a ring or a cut-off shank has > 1
+  double bend = 0;    // sag of the inner side over its length
+  double roughness = 0;  // rms of the inner side about a parabola, over its length
+  bool cut_off = false;  // the end touches the frame
+};
+
+// Two blades with the gap between them, as the silhouette's concavities show them.
+struct BladePair {
+  BladeContour first,
+      second;  // clockwise from the crotch as the mask is seen: `first` comes before it
+  Eigen::Vector2d crotch;
+  std::optional<Eigen::Vector2d> shank_crotch;  // the concavity opposite, between the shanks
+  Eigen::Vector2d pivot;                        // centre of the overlap: where the members cross
+  double pivot_sigma = 0;
+  double shank_width = 0;  // of the members near the pivot
+  double quality = 0;      // 0 to 1: how much this looks like a pair of blades
+  double worst_grade = 1;  // of the parts that make up the quality
+  std::string doubt;       // what lowered the quality most
+};
+
+// All gaps of the silhouette that might lie between two blades, best first; empty if none does.
+// `hidden` (CV_8UC1, may be empty) is non-zero where something covers what goes on: a shank that
+// ends there is cut off, not short.
+[[nodiscard]] std::vector<BladePair> FindBladePairs(const Silhouette& silhouette,
+                                                    const cv::Mat& hidden);
+
+}  // namespace bladecurve

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/blades.h"
+#include "vision/refused.h"
+#include "vision/scene_debug.h"
+#include "vision/scene_ladder.h"
+#include "vision/scene_trace.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
+// and more.
+constexpr double kAcceptedQuality = 0.45;
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// A line through the part of a traced edge that is clear of the crotch: point and unit direction.
+struct FittedLine {
+  Vector2d point, direction;
+};
+
+FittedLine LineThrough(const std::vector<Vector2d>& path, double from_share, double to_share) {
+  const auto first = static_cast<std::size_t>(from_share * static_cast<double>(path.size() - 1));
+  const auto last =
+      std::max(first + 2, static_cast<std::size_t>(to_share * static_cast<double>(path.size())));
+  Vector2d mean = Vector2d::Zero();
+  const std::size_t end = std::min(last, path.size());
+  for (std::size_t i = first; i < end; ++i) mean += path[i];
+  mean /= static_cast<double>(end - first);
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (std::size_t i = first; i < end; ++i)
+    scatter += (path[i] - mean) * (path[i] - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
+  Vector2d direction = eigen.eigenvectors().col(1);
+  if (direction.dot(path.back() - path.front()) < 0) direction = -direction;
+  return {mean, direction};
+}
+
+// The mask may have filled the gap near the crotch (a shadow) or opened it too far: the straight
+// parts of the two edges, run backwards, say where the blades really cross.
+Vector2d CrossingOfEdges(const std::vector<Vector2d>& a,
+                         const std::vector<Vector2d>& b,
+                         const Vector2d& crotch) {
+  constexpr double kFrom = 0.12;  // clear of the filled part
+  constexpr double kTo = 0.45;    // before a curved blade bends away
+  const FittedLine p = LineThrough(a, kFrom, kTo);
+  const FittedLine q = LineThrough(b, kFrom, kTo);
+  const double sine = Cross(p.direction, q.direction);
+  if (std::abs(sine) < 0.02) return crotch;  // nearly parallel: the crossing is anywhere
+  const Vector2d crossing = p.point + Cross(q.point - p.point, q.direction) / sine * p.direction;
+  const double length = (a.back() - crotch).norm();
+  return (crossing - crotch).norm() < 0.6 * length ? crossing : crotch;
+}
+
+// The path from the crossing on: a straight run to where the traced edge is clear of the crotch,
+// then the traced edge.
+std::vector<Vector2d> StartAt(const Vector2d& crossing, const std::vector<Vector2d>& path) {
+  const double length = (path.back() - crossing).norm();
+  const FittedLine line = LineThrough(path, 0.12, 0.45);
+  std::vector<Vector2d> out;
+  const auto clear = std::find_if(path.begin(), path.end(), [&](const Vector2d& p) {
+    return (p - path.front()).norm() > 0.1 * length &&
+           (p - crossing).dot(line.direction) > 0.1 * length;
+  });
+  if (clear == path.end()) return path;
+  out.push_back(crossing);
+  out.insert(out.end(), clear, path.end());
+  return Resample(out, 1.0);
+}
+
+SceneBlade ToSceneBlade(const ScaledImage& at,
+                        const BladeContour& blade,
+                        const std::vector<Vector2d>& inner) {
+  SceneBlade out;
+  for (const Vector2d& p : inner) out.inner_px.push_back(at.FullFromSmall(p));
+  out.tip_px = at.FullFromSmall(blade.tip);
+  out.width_px = blade.width * at.full_px_per_px();
+  return out;
+}
+
+std::vector<Vector2d> TraceInner(const cv::Mat& image, const BladeContour& blade, int inside) {
+  TraceRange range;
+  range.inwards = std::clamp(
+      0.3 * blade.width, 2.0, 12.0);  // a soft shadow may fill a third of the blade's width
+  range.outwards = 2.0;
+  return TraceStrongestEdge(image, blade.inner, inside, range);
+}
+
+Scene SceneFrom(const Candidate& found) {
+  const BladePair& pair = found.pair;
+  const ScaledImage& at = *found.at;
+  // `first` runs clockwise before the crotch (y down): seen towards the tips it is the left blade,
+  // and going outwards along its inner edge the metal lies to the left; for `second` to the right.
+  std::vector<Vector2d> left = TraceInner(at.pixels, pair.first, +1);
+  std::vector<Vector2d> right = TraceInner(at.pixels, pair.second, -1);
+  const Vector2d crossing = CrossingOfEdges(left, right, pair.crotch);
+  left = StartAt(crossing, left);
+  right = StartAt(crossing, right);
+  Scene scene;
+  scene.left = ToSceneBlade(at, pair.first, left);
+  scene.right = ToSceneBlade(at, pair.second, right);
+  scene.crotch_px = at.FullFromSmall(crossing);
+  scene.pivot_px = at.FullFromSmall(pair.pivot);
+  scene.pivot_sigma_px = pair.pivot_sigma * at.full_px_per_px();
+  scene.shank_width_px = pair.shank_width * at.full_px_per_px();
+  scene.path_sigma_px = at.full_px_per_px();
+  scene.quality = pair.quality;
+  scene.method = found.method;
+  return scene;
+}
+
+void RefuseUnlessUsable(const LadderResult& ladder) {
+  if (ladder.best.pair.quality < kAcceptedQuality) {
+    const std::string nearest = ladder.best.pair.doubt.empty()
+                                    ? ""
+                                    : "; the nearest thing fails because " + ladder.best.pair.doubt;
+    throw Refused(
+        Reason::kNotScissors,
+        "scene: no pair of open blades found" + nearest +
+            "; show the scissors open and whole on a plain ground, or point at them with --roi");
+  }
+  const BladePair& pair = ladder.best.pair;
+  if (pair.first.cut_off || pair.second.cut_off) {
+    throw Refused(Reason::kBladesNotVisible,
+                  "scene: a blade runs out of the picture; both tips must be inside the frame");
+  }
+  if (ladder.several) {
+    throw Refused(Reason::kSeveralScissors,
+                  "scene: more than one pair of scissors; choose one with --roi X,Y,W,H");
+  }
+}
+
+}  // namespace
+
+Scene FindScene(const Photo& photo,
+                const std::vector<SeenMarker>& markers,
+                const StoredHints& hints,
+                StageLog* log) {
+  const LadderResult ladder = ClimbLadder(photo, markers, hints, log);
+  RefuseUnlessUsable(ladder);
+  Scene scene = SceneFrom(ladder.best);
+  if (hints.pivot_px) {
+    scene.pivot_px = *hints.pivot_px;
+    scene.pivot_sigma_px = 1;
+  }
+  if (scene.quality < 0.75) scene.warnings.push_back("scene_doubtful");
+  log->Ran("trace", "edges followed on the small picture");
+  if (log->wants_pictures()) log->Picture("scene", DrawScene(ladder.best, scene));
+  return scene;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/photo.h"
+#include "vision/scale.h"
+#include "vision/stage_log.h"
+
+namespace bladecurve {
+
+// A blade where scene finding sees it; stored full-resolution pixels, a few off.
+struct SceneBlade {
+  std::vector<Eigen::Vector2d> inner_px;  // from near the crotch to the tip: the cutting edge
+  Eigen::Vector2d tip_px;
+  double width_px = 0;  // half way along
+};
+
+// The scissors in the picture.
+struct Scene {
+  SceneBlade left, right;  // seen from the pivot towards the tips, in the stored picture
+  Eigen::Vector2d crotch_px;
+  Eigen::Vector2d pivot_px;  // where the members cross
+  double pivot_sigma_px = 0;
+  double shank_width_px = 0;
+  double path_sigma_px = 0;  // how far off the paths may be
+  double quality = 0;        // 0 to 1
+  std::string method;        // the rung of the ladder that gave it
+  std::vector<std::string> warnings;
+};
+
+// Hints in stored pixels.
+struct StoredHints {
+  std::optional<cv::Rect> roi_px;
+  std::optional<Eigen::Vector2d> pivot_px;
+  std::optional<Eigen::Vector2d> tips_direction;  // unit
+};
+
+// Climbs the ladder of methods, the cheap ones first, until the geometry is consistent. Throws
+// Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kOutOfPlane, kTooSmall}.
+[[nodiscard]] Scene FindScene(const Photo& photo,
+                              const std::vector<SeenMarker>& markers,
+                              const StoredHints& hints,
+                              StageLog* log);
+
+}  // namespace bladecurve

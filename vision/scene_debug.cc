@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene_debug.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace bladecurve {
+namespace {
+
+constexpr double kZoom = 2;
+
+cv::Point At(const Eigen::Vector2d& p) {
+  return {static_cast<int>(kZoom * (p.x() + 0.5)), static_cast<int>(kZoom * (p.y() + 0.5))};
+}
+
+cv::Mat Viewable(const cv::Mat& pixels) {
+  cv::Mat bgr;
+  if (pixels.channels() == 3) {
+    cv::cvtColor(pixels, bgr, cv::COLOR_Lab2BGR);
+    bgr.convertTo(bgr, CV_8UC3, 255);
+  } else {
+    pixels.convertTo(bgr, CV_8UC1, 255.0 / 100);
+    cv::cvtColor(bgr, bgr, cv::COLOR_GRAY2BGR);
+  }
+  return bgr;
+}
+
+void DrawPath(const std::vector<Eigen::Vector2d>& path,
+              const ScaledImage* at,
+              const cv::Scalar& colour,
+              cv::Mat* picture) {
+  std::vector<cv::Point> points;
+  for (const Eigen::Vector2d& p : path)
+    points.push_back(At(at != nullptr ? at->SmallFromFull(p) : p));
+  cv::polylines(*picture, points, false, colour, 1, cv::LINE_AA);
+}
+
+}  // namespace
+
+cv::Mat DrawScene(const Candidate& found, const Scene& scene) {
+  cv::Mat picture;
+  cv::Mat mask;
+  cv::resize(Viewable(found.at->pixels), picture, {}, kZoom, kZoom, cv::INTER_NEAREST);
+  cv::cvtColor(found.mask / 2, mask, cv::COLOR_GRAY2BGR);
+  cv::resize(mask, mask, {}, kZoom, kZoom, cv::INTER_NEAREST);
+  const BladePair& pair = found.pair;
+  DrawPath(pair.first.inner, nullptr, {0, 0, 255}, &mask);
+  DrawPath(pair.second.inner, nullptr, {0, 255, 0}, &mask);
+  DrawPath(scene.left.inner_px, found.at.get(), {0, 0, 255}, &picture);
+  DrawPath(scene.right.inner_px, found.at.get(), {0, 255, 0}, &picture);
+  for (cv::Mat* where : {&picture, &mask}) {
+    cv::circle(*where, At(pair.crotch), 4, {255, 255, 0}, 1, cv::LINE_AA);
+    if (pair.shank_crotch)
+      cv::circle(*where, At(*pair.shank_crotch), 4, {0, 128, 255}, 1, cv::LINE_AA);
+    cv::circle(*where, At(pair.first.tip), 5, {255, 0, 255}, 1, cv::LINE_AA);
+    cv::circle(*where, At(pair.second.tip), 5, {255, 0, 255}, 1, cv::LINE_AA);
+    cv::circle(*where,
+               At(pair.pivot),
+               static_cast<int>(kZoom * pair.pivot_sigma) + 2,
+               {0, 255, 255},
+               1,
+               cv::LINE_AA);
+  }
+  const std::string label = found.method + " threshold " +
+                            std::to_string(found.threshold).substr(0, 4) + " quality " +
+                            std::to_string(pair.quality).substr(0, 4) + " " + pair.doubt;
+  cv::putText(
+      mask, label, {10, 24}, cv::FONT_HERSHEY_SIMPLEX, 0.6, {255, 255, 255}, 1, cv::LINE_AA);
+  cv::hconcat(picture, mask, picture);
+  return picture;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/stage_log.h"
+
+#include <utility>
+
+#include "vision/png_writer.h"
+
+namespace bladecurve {
+
+StageLog::StageLog(std::optional<std::filesystem::path> debug_dir)
+    : debug_dir_(std::move(debug_dir)), start_(Clock::now()), last_(start_) {
+  if (debug_dir_) std::filesystem::create_directories(*debug_dir_);
+}
+
+void StageLog::Ran(const std::string& stage, const std::string& why) {
+  const Clock::time_point now = Clock::now();
+  records_.push_back(
+      {stage, true, why, std::chrono::duration<double, std::milli>(now - last_).count()});
+  last_ = now;
+}
+
+void StageLog::Skipped(const std::string& stage, const std::string& why) {
+  records_.push_back({stage, false, why, 0});
+}
+
+void StageLog::Picture(const std::string& name, const cv::Mat& picture) {
+  if (!debug_dir_) return;
+  const std::string number = std::to_string(100 + ++pictures_).substr(1);  // two digits: they sort
+  WritePng(*debug_dir_ / (number + "_" + name + ".png"), picture);
+  last_ = Clock::now();  // drawing is not part of the next stage
+}
+
+double StageLog::total_ms() const {
+  return std::chrono::duration<double, std::milli>(last_ - start_).count();
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace bladecurve {
+
+// One line of "plan" in the result: what ran, what was left out, and why.
+struct StageRecord {
+  std::string stage;
+  bool ran = false;
+  std::string why;
+  double ms = 0;
+};
+
+// Collects what each stage did and how long it took, and, if asked for, a picture of it.
+class StageLog {
+ public:
+  explicit StageLog(std::optional<std::filesystem::path> debug_dir = std::nullopt);
+
+  void Ran(const std::string& stage,
+           const std::string& why);  // the time since the last record is its time
+  void Skipped(const std::string& stage, const std::string& why);
+
+  [[nodiscard]] bool wants_pictures() const { return debug_dir_.has_value(); }
+  // Writes DIR/NN_name.png.
+  void Picture(const std::string& name, const cv::Mat& picture);
+
+  [[nodiscard]] const std::vector<StageRecord>& records() const { return records_; }
+  [[nodiscard]] double total_ms() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::optional<std::filesystem::path> debug_dir_;
+  int pictures_ = 0;
+  std::vector<StageRecord> records_;
+  Clock::time_point start_;
+  Clock::time_point last_;
+};
+
+}  // namespace bladecurve
