@@ -18,7 +18,8 @@ BladeCurve::BladeCurve(BladeShape shape, CurveDomain domain)
     : shape_(std::move(shape)), domain_(domain), prepared_(PrepareBlade(shape_, domain_)) {}
 
 CurveSample BladeCurve::Eval(double x_mm, double theta_rad) const noexcept {
-  const bladecurve_sample s = EvalBlade(&prepared_->kernel, x_mm, theta_rad);
+  bladecurve_sample s;
+  EvalBlade(&prepared_->kernel, x_mm, theta_rad, &s);
   return {s.phi_mm,
           s.phi_x,
           s.phi_theta_mm_per_rad,

@@ -39,9 +39,10 @@ typedef struct BladeKernel {
 typedef struct EdgeTurn {
   double cosine, sine;
   double least, u_low, u_high;
+  int is_whole; /* the whole edge is a graph */
 } EdgeTurn;
 
-/* The spline and its derivatives at u. */
+/* The spline and its Taylor coefficients at u: s, s', s''/2, s'''/6. */
 typedef struct SplinePoint {
   double u, s, s1, s2, s3;
   int row;
@@ -49,7 +50,8 @@ typedef struct SplinePoint {
 
 /* phi and its derivatives at a point of the domain; t is theta. */
 typedef struct BladeJet {
-  double f, x, t, xx, xt, tt, xxt, xtt;
+  double f, x, t, xx, xt, tt;
+  double xxt, xtt; /* wanted beyond the domain only */
 } BladeJet;
 
 static inline double Clamp(double value, double low, double high) {
@@ -140,6 +142,25 @@ static inline int PolynomialRoots(const double* c, int degree, double a, double 
   return n;
 }
 
+/* ---- angles ---- */
+
+/* tan(theta/4) as a fraction, |theta| <= pi. Minimax of tan(q)/q in q^2, relative error 2e-17, by
+ * the Remez algorithm. The C library's functions would differ in the last bit from one system to
+ * the next, and take longer than all the rest of a tapered rectangle. */
+typedef struct QuarterTangent {
+  double num, den;
+} QuarterTangent;
+
+static inline QuarterTangent QuarterTangentOf(double theta) {
+  const double q = 0.25 * theta, z = q * q;
+  QuarterTangent tangent;
+  tangent.num = q * ((1.0 - 0.12828350168243329619 * z) +
+                     z * z * (0.0028059217245041402614 - 7.4836686415908291604e-6 * z));
+  tangent.den = (1.0 - 0.46161683501576378859 * z) +
+                z * z * (0.023344866729689041094 - 0.00020844854405326998535 * z);
+  return tangent;
+}
+
 /* ---- the spline s(u) ---- */
 
 static inline int RowAt(const BladeKernel* k, double u) {
@@ -153,33 +174,38 @@ static inline int RowAt(const BladeKernel* k, double u) {
   return (int)(base - k->ends) - 1;
 }
 
-static inline SplinePoint PointAt(const BladeKernel* k, double u) {
-  SplinePoint p;
-  const int row = RowAt(k, u);
+/* The coefficients beyond the degree are 0. */
+static inline SplinePoint PointOnRow(const BladeKernel* k, int row, double u) {
   const double* c = k->rows + kRowSize * row + 1;
   const double t = u - c[-1];
-  int i;
+  const double tt = t * t;
+  SplinePoint p;
   p.u = u;
   p.row = row;
-  p.s = c[k->degree];
-  p.s1 = p.s2 = p.s3 = 0.0;
-  for (i = k->degree; i-- > 0;) {
-    p.s3 = p.s3 * t + p.s2;
-    p.s2 = p.s2 * t + p.s1;
-    p.s1 = p.s1 * t + p.s;
-    p.s = p.s * t + c[i];
+  p.s = (c[0] + c[1] * t) + tt * (c[2] + c[3] * t);
+  p.s1 = c[1] + t * (2.0 * c[2] + 3.0 * c[3] * t);
+  p.s2 = c[2] + 3.0 * c[3] * t;
+  p.s3 = c[3];
+  if (k->degree > 3) {
+    const double tc5 = t * c[5];
+    p.s += tt * tt * (c[4] + tc5);
+    p.s1 += tt * t * (4.0 * c[4] + 5.0 * tc5);
+    p.s2 += tt * (6.0 * c[4] + 10.0 * tc5);
+    p.s3 += t * (4.0 * c[4] + 10.0 * tc5);
   }
-  p.s2 *= 2.0;
-  p.s3 *= 6.0;
   return p;
+}
+
+static inline SplinePoint PointAt(const BladeKernel* k, double u) {
+  return PointOnRow(k, RowAt(k, u), u);
 }
 
 /* The point a tiny step further, by Taylor's series. */
 static inline SplinePoint Moved(SplinePoint p, double step) {
   p.u += step;
-  p.s += step * (p.s1 + 0.5 * step * p.s2);
-  p.s1 += step * (p.s2 + 0.5 * step * p.s3);
-  p.s2 += step * p.s3;
+  p.s += step * (p.s1 + step * p.s2);
+  p.s1 += step * (2.0 * p.s2 + 3.0 * step * p.s3);
+  p.s2 += 3.0 * step * p.s3;
   return p;
 }
 
@@ -211,19 +237,25 @@ static inline double GraphEnd(const BladeKernel* k, const EdgeTurn* turn, double
   return direction * kFarthest;
 }
 
+/* Where the turned edge is a graph: the part around its flattest place. */
+static void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
+  const double u = turn->sine > 0.0 ? k->u_slope_min : k->u_slope_max;
+  turn->least = kLeastAdvance;
+  turn->u_low = GraphEnd(k, turn, u, -1);
+  turn->u_high = GraphEnd(k, turn, u, 1);
+}
+
 static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
+  const QuarterTangent q = QuarterTangentOf(theta);
+  const double dd = q.den * q.den, nn = q.num * q.num, per = 1.0 / (dd + nn);
   EdgeTurn turn;
-  turn.cosine = cos(0.5 * theta);
-  turn.sine = sin(0.5 * theta);
+  turn.cosine = (dd - nn) * per;
+  turn.sine = 2.0 * q.num * q.den * per;
   turn.least = turn.cosine - turn.sine * (turn.sine > 0.0 ? k->slope_max : k->slope_min);
   turn.u_low = -kFarthest;
   turn.u_high = kFarthest;
-  if (turn.least < kLeastAdvance) {
-    const double u = turn.sine > 0.0 ? k->u_slope_min : k->u_slope_max;
-    turn.least = kLeastAdvance;
-    turn.u_low = GraphEnd(k, &turn, u, -1);
-    turn.u_high = GraphEnd(k, &turn, u, 1);
-  }
+  turn.is_whole = turn.least >= kLeastAdvance;
+  if (!turn.is_whole) FindGraph(k, &turn);
   return turn;
 }
 
@@ -231,26 +263,37 @@ static inline double XOfPoint(const EdgeTurn* turn, SplinePoint p) {
   return p.u * turn->cosine - p.s * turn->sine;
 }
 
-/* The point of the edge over x, for an x between those of u_low and u_high: Newton's steps,
- * halving the bracket where they leave it or do not shrink. */
-static inline SplinePoint PointOver(const BladeKernel* k, const EdgeTurn* turn, double x) {
-  const double chord = turn->cosine - k->chord_slope * turn->sine;
-  double low = turn->u_low, high = turn->u_high, last_step = 2.0 * kFarthest;
-  SplinePoint p = PointAt(
-      k,
-      Clamp((x + k->chord_offset * turn->sine) / (chord > turn->least ? chord : turn->least),
-            low,
-            high));
+/* The step along u that lessens the edge's x by `miss`, by reversion of Taylor's series up to the
+ * fourth power; Newton's where that is of no use. */
+static inline double StepBy(const EdgeTurn* turn, SplinePoint p, double miss) {
+  const double per = 1.0 / (turn->cosine - p.s1 * turn->sine);
+  const double step = -miss * per, bend = turn->sine * per * step;
+  const double b = p.s2 * bend, c = p.s3 * step * bend;
+  if (fabs(b) + fabs(c) > 0.1) return step;
+  return step * (1.0 + b * (1.0 + b * (2.0 + 5.0 * b)) + c * (1.0 + 5.0 * b));
+}
+
+static inline int IsOnRow(const BladeKernel* k, int row, double u) {
+  return u >= k->ends[row] && u <= k->ends[row + 1];
+}
+
+/* The point of the edge over x, for an x between those of u_low and u_high, from any start:
+ * Newton's steps, halving the bracket where they leave it or do not shrink. */
+static SplinePoint SearchPointOver(const BladeKernel* k,
+                                   const EdgeTurn* turn,
+                                   double x,
+                                   double start) {
+  SplinePoint p = PointAt(k, Clamp(start, turn->u_low, turn->u_high));
   const double reach = fabs(XOfPoint(turn, p) - x) / turn->least;
+  double low = p.u - reach > turn->u_low ? p.u - reach : turn->u_low;
+  double high = p.u + reach < turn->u_high ? p.u + reach : turn->u_high;
+  double last_step = high - low;
   int i;
-  if (low < p.u - reach) low = p.u - reach;
-  if (high > p.u + reach) high = p.u + reach;
   for (i = 0; i < 200; ++i) {
     const double miss = XOfPoint(turn, p) - x;
     const double step = -miss / (turn->cosine - p.s1 * turn->sine);
     double next = p.u + step;
-    if (fabs(step) <= k->near_mm && next >= k->ends[p.row] && next <= k->ends[p.row + 1])
-      return Moved(p, step);
+    if (fabs(step) <= k->near_mm && IsOnRow(k, p.row, next)) return Moved(p, step);
     if (miss > 0.0)
       high = p.u;
     else
@@ -263,35 +306,56 @@ static inline SplinePoint PointOver(const BladeKernel* k, const EdgeTurn* turn, 
   return p;
 }
 
-/* The point of the edge over x; where the edge is no graph, the end of its graph, flagged. */
-static inline SplinePoint EdgePointOver(const BladeKernel* k,
-                                        const EdgeTurn* turn,
-                                        double* x,
-                                        unsigned* flags) {
-  if (turn->u_low > -kFarthest || turn->u_high < kFarthest) {
-    const SplinePoint low = PointAt(k, turn->u_low), high = PointAt(k, turn->u_high);
-    const double x_low = XOfPoint(turn, low), x_high = XOfPoint(turn, high);
-    if (!(*x > x_low && *x < x_high)) {
-      const int at_low = *x <= x_low;
-      *flags |= BLADECURVE_NOT_GRAPH;
-      *x = at_low ? x_low : x_high;
-      return at_low ? low : high;
-    }
+/* The point over x of an edge that is no graph everywhere: where x is beyond the graph, its end,
+ * with its own x, flagged. */
+static SplinePoint PointOfPartOver(const BladeKernel* k,
+                                   const EdgeTurn* turn,
+                                   double* x,
+                                   unsigned* flags) {
+  const SplinePoint low = PointAt(k, turn->u_low), high = PointAt(k, turn->u_high);
+  const double x_low = XOfPoint(turn, low), x_high = XOfPoint(turn, high);
+  if (*x > x_low && *x < x_high) return SearchPointOver(k, turn, *x, 0.5 * (low.u + high.u));
+  *flags |= BLADECURVE_NOT_GRAPH;
+  if (*x <= x_low) {
+    *x = x_low;
+    return low;
   }
-  return PointOver(k, turn, *x);
+  *x = x_high;
+  return high;
+}
+
+/* The point of the edge over x. From the spline's chord two steps nearly always do. */
+static inline SplinePoint PointOver(const BladeKernel* k,
+                                    const EdgeTurn* turn,
+                                    double* x,
+                                    unsigned* flags) {
+  const double start =
+      (*x + k->chord_offset * turn->sine) / (turn->cosine - k->chord_slope * turn->sine);
+  SplinePoint p;
+  int i;
+  if (!turn->is_whole) return PointOfPartOver(k, turn, x, flags);
+  p = PointAt(k, start);
+  for (i = 0; i < 4; ++i) {
+    const double step = StepBy(turn, p, XOfPoint(turn, p) - *x);
+    const double next = p.u + step;
+    const int same_row = IsOnRow(k, p.row, next);
+    if (fabs(step) <= k->near_mm && same_row) return Moved(p, step);
+    p = same_row ? PointOnRow(k, p.row, next) : PointAt(k, next);
+  }
+  return SearchPointOver(k, turn, *x, start);
 }
 
 /* ---- phi ---- */
 
 static inline BladeJet TaperedJet(const BladeKernel* k, double x, double theta) {
-  const double tangent = tan(0.5 * theta);
-  const double turn = k->gain * 0.5 * (1.0 + tangent * tangent);
+  const QuarterTangent q = QuarterTangentOf(theta);
+  const double tangent = 2.0 * q.num * q.den / (q.den * q.den - q.num * q.num);
   BladeJet j;
   j.x = k->b + k->gain * tangent;
   j.f = k->a + x * j.x;
-  j.t = x * turn;
-  j.xt = turn;
-  j.xtt = turn * tangent;
+  j.xt = 0.5 * k->gain * (1.0 + tangent * tangent);
+  j.t = x * j.xt;
+  j.xtt = j.xt * tangent;
   j.tt = x * j.xtt;
   j.xx = j.xxt = 0.0;
   return j;
@@ -301,44 +365,77 @@ static inline BladeJet TaperedJet(const BladeKernel* k, double x, double theta) 
  * phi_x for a rigid turn, which differentiates to the rest. */
 static inline BladeJet SplineJet(const BladeKernel* k, double x, double theta, unsigned* flags) {
   const EdgeTurn turn = TurnBy(k, theta);
-  const SplinePoint p = EdgePointOver(k, &turn, &x, flags);
+  const SplinePoint p = PointOver(k, &turn, &x, flags);
   const double advance = turn.cosine - p.s1 * turn.sine;
   const double per = 1.0 / (advance > kLeastAdvance ? advance : kLeastAdvance);
+  const double per3 = per * per * per;
   BladeJet j;
   double xxx;
   if (p.row == 0 || p.row == k->num_rows - 1) *flags |= BLADECURVE_X_OUTSIDE;
   j.f = p.u * turn.sine + p.s * turn.cosine;
   j.x = (turn.sine + p.s1 * turn.cosine) * per;
-  j.xx = p.s2 * per * per * per;
-  xxx = (p.s3 * per + 3.0 * p.s2 * p.s2 * turn.sine * per * per) * per * per * per;
+  j.xx = 2.0 * p.s2 * per3;
   j.t = 0.5 * (x + j.f * j.x);
   j.xt = 0.5 * (1.0 + j.x * j.x + j.f * j.xx);
   j.tt = 0.5 * (j.t * j.x + j.f * j.xt);
+  xxx = (6.0 * p.s3 + 12.0 * p.s2 * p.s2 * turn.sine * per) * per3 * per;
   j.xxt = 0.5 * (3.0 * j.x * j.xx + j.f * xxx);
   j.xtt = 0.5 * (2.0 * j.x * j.xt + j.t * j.xx + j.f * j.xxt);
   return j;
 }
 
-/* phi at any (x, theta): the jet at the nearest point of the domain, continued linearly in each. */
-static inline bladecurve_sample EvalBlade(const BladeKernel* k, double x, double theta) {
-  bladecurve_sample sample = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, BLADECURVE_NOT_FINITE};
-  const double x_in = Clamp(x, k->x_min, k->x_max),
-               theta_in = Clamp(theta, k->theta_min, k->theta_max);
+static inline void Fill(bladecurve_sample* sample, BladeJet j, unsigned flags) {
+  sample->phi_mm = j.f;
+  sample->phi_x = j.x;
+  sample->phi_theta_mm_per_rad = j.t;
+  sample->phi_xx_per_mm = j.xx;
+  sample->phi_xtheta_per_rad = j.xt;
+  sample->phi_thetatheta_mm_per_rad2 = j.tt;
+  sample->flags = flags;
+}
+
+/* The jet at the nearest point of the domain, continued linearly by dx and dt. */
+static inline BladeJet Continued(BladeJet j, double dx, double dt) {
+  BladeJet far = j;
+  far.f = j.f + j.x * dx + (j.t + j.xt * dx) * dt;
+  far.x = j.x + j.xt * dt;
+  far.t = j.t + j.xt * dx;
+  far.xx = dx == 0.0 ? j.xx + j.xxt * dt : 0.0;
+  far.tt = dt == 0.0 ? j.tt + j.xtt * dx : 0.0;
+  return far;
+}
+
+static void EvalOutside(const BladeKernel* k, double x, double theta, bladecurve_sample* sample) {
+  const double x_in = Clamp(x, k->x_min, k->x_max);
+  const double theta_in = Clamp(theta, k->theta_min, k->theta_max);
+  const double dx = Clamp(x, -kFarthest, kFarthest) - x_in;
+  const double dt = Clamp(theta, -kFarthest, kFarthest) - theta_in;
+  const BladeJet nothing = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  unsigned flags =
+      (dx == 0.0 ? 0u : BLADECURVE_X_OUTSIDE) | (dt == 0.0 ? 0u : BLADECURVE_THETA_OUTSIDE);
   BladeJet j;
-  double dx, dt;
-  if (!IsFinite(x) || !IsFinite(theta)) return sample;
-  sample.flags = (x_in < x || x_in > x ? BLADECURVE_X_OUTSIDE : 0u) |
-                 (theta_in < theta || theta_in > theta ? BLADECURVE_THETA_OUTSIDE : 0u);
-  j = k->num_rows > 0 ? SplineJet(k, x_in, theta_in, &sample.flags) : TaperedJet(k, x_in, theta_in);
-  dx = Clamp(x, -kFarthest, kFarthest) - x_in;
-  dt = Clamp(theta, -kFarthest, kFarthest) - theta_in;
-  sample.phi_mm = j.f + j.x * dx + (j.t + j.xt * dx) * dt;
-  sample.phi_x = j.x + j.xt * dt;
-  sample.phi_theta_mm_per_rad = j.t + j.xt * dx;
-  sample.phi_xx_per_mm = x_in == x ? j.xx + j.xxt * dt : 0.0;
-  sample.phi_xtheta_per_rad = j.xt;
-  sample.phi_thetatheta_mm_per_rad2 = theta_in == theta ? j.tt + j.xtt * dx : 0.0;
-  return sample;
+  if (!IsFinite(x) || !IsFinite(theta)) {
+    Fill(sample, nothing, BLADECURVE_NOT_FINITE);
+    return;
+  }
+  j = k->num_rows > 0 ? SplineJet(k, x_in, theta_in, &flags) : TaperedJet(k, x_in, theta_in);
+  Fill(sample, Continued(j, dx, dt), flags);
+}
+
+/* phi at any (x, theta). */
+static inline void EvalBlade(const BladeKernel* k,
+                             double x,
+                             double theta,
+                             bladecurve_sample* sample) {
+  if (!(x >= k->x_min && x <= k->x_max && theta >= k->theta_min && theta <= k->theta_max)) {
+    EvalOutside(k, x, theta, sample);
+  } else if (k->num_rows == 0) {
+    Fill(sample, TaperedJet(k, x, theta), 0u);
+  } else {
+    unsigned flags = 0u;
+    const BladeJet j = SplineJet(k, x, theta, &flags);
+    Fill(sample, j, flags);
+  }
 }
 
 /* ---- contacts: every x of the domain with phi(x, theta) = y ---- */
@@ -383,8 +480,8 @@ static inline int SplineContacts(
   const EdgeTurn turn = TurnBy(k, theta);
   unsigned flags = 0u;
   double x_low = k->x_min, x_high = k->x_max, last = k->x_min - 1.0 - same;
-  const SplinePoint low = EdgePointOver(k, &turn, &x_low, &flags),
-                    high = EdgePointOver(k, &turn, &x_high, &flags);
+  const SplinePoint low = PointOver(k, &turn, &x_low, &flags),
+                    high = PointOver(k, &turn, &x_high, &flags);
   int n = 0, row, i;
   for (row = low.row; row <= high.row; ++row) {
     const double centre = k->rows[kRowSize * row];
