@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <variant>
 
+#include "samples/fit_record.h"
 #include "samples/fitted_photo.h"
 
 namespace bladecurve {
@@ -19,16 +20,6 @@ Json PointsRecord(const std::vector<Eigen::Vector2d>& points) {
   Json record = Json::array();
   for (const Eigen::Vector2d& point : points) record.push_back(PointRecord(point));
   return record;
-}
-
-Json MatrixRecord(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(row);
-  }
-  return rows;
 }
 
 Json ShapeRecord(const TaperedRectangle& shape) {
@@ -57,9 +48,12 @@ Json AlternativesRecord(const BladeFit& fit) {
   for (const FamilyFit& other : fit.alternatives) {
     record.push_back({{"curve", CurveRecord(other.curve)},
                       {"rms_mm", other.rms_mm},
-                      {"aicc", other.aicc},
                       {"largest_difference_mm", fit.largest_difference_mm},
-                      {"largest_difference_torque", fit.largest_difference_torque}});
+                      {"largest_difference_torque", fit.largest_difference_torque},
+                      {"parameters", other.parameter_names},
+                      {"covariance", MatrixRecord(other.covariance)},
+                      {"bic", other.bic},
+                      {"aicc", other.aicc}});
   }
   return record;
 }
@@ -68,22 +62,6 @@ double MeanMmPerPx(const std::vector<PhotoMeasurement>& photos) {
   double sum = 0;
   for (const PhotoMeasurement& photo : photos) sum += photo.mm_per_px;
   return sum / static_cast<double>(photos.size());
-}
-
-Json FitRecord(const Analysis& analysis) {
-  const FamilyFit& fit = analysis.fit.recommended;
-  return {{"rms_mm", fit.rms_mm},
-          {"rms_px", fit.rms_mm / MeanMmPerPx(analysis.photos)},
-          {"points", fit.points},
-          {"inliers", fit.inliers},
-          {"effective_points", fit.effective_points},
-          {"condition_number", fit.condition_number},
-          {"rank", fit.rank},
-          {"iterations", fit.iterations},
-          {"converged", fit.converged},
-          {"termination", fit.termination},
-          {"criterion",
-           {{"name", "aicc"}, {"value", fit.aicc}, {"why", analysis.fit.why_recommended}}}};
 }
 
 Json PlanRecord(const std::vector<StageRecord>& plan, bool times) {
@@ -119,7 +97,7 @@ Json PhotoRecord(const Analysis& analysis, std::size_t index, bool times) {
                  {"theta_rad", fitted.theta_rad},
                  {"theta_sigma_rad", fitted.theta_sigma_rad},
                  {"theta_source", photo.theta_source},
-                 {"mm_per_px", photo.mm_per_px},
+                 {"mm_per_px", fitted.mm_per_px},
                  {"mm_per_px_sigma", photo.mm_per_px_sigma},
                  {"scale_source", photo.scale_source},
                  {"rms_mm", analysis.fit.poses[index].rms_mm},
@@ -188,7 +166,7 @@ std::string BladeRecordText(const Analysis& analysis, const RecordOptions& optio
       {"domain", DomainRecord(fit.curve.domain())},
       {"covariance",
        {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
-      {"fit", FitRecord(analysis)},
+      {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
       {"photos", PhotosRecord(analysis, options.times)}};
   return LineAKey(record);
 }

@@ -25,7 +25,7 @@ cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index) {
   overlay.axis_px = fitted.axis_px;
   overlay.theta_rad = fitted.theta_rad;
   overlay.theta_sigma_rad = fitted.theta_sigma_rad;
-  overlay.unit_per_px = photo.mm_per_px;
+  overlay.unit_per_px = fitted.mm_per_px;
   overlay.unit = photo.scale_source == "units-px" ? "px" : "mm";
   overlay.title = StatusLine(analysis, std::filesystem::path(photo.file).filename().string());
   overlay.doubtful = Status(analysis) != "ok";

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <variant>
 
+#include "model/blade_file.h"
 #include "samples/blade_record.h"
 #include "samples/fitted_photo.h"
 
@@ -16,11 +19,6 @@ namespace bladecurve {
 namespace {
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-
-std::vector<double> Values(const TaperedRectangle& shape) {
-  return {shape.a_mm, shape.b, shape.gain};
-}
-std::vector<double> Values(const RigidSpline& shape) { return shape.coefficients_mm; }
 
 std::string Form(const TaperedRectangle&) {
   return "tapered-rectangle, phi = a + x (b + gain tan(theta/2))";
@@ -33,16 +31,24 @@ std::string Form(const RigidSpline& shape) {
                      shape.knots_mm.back());
 }
 
-// Coefficients by name with the square root of their variance; what was held fixed has none.
+// Square root of the parameter's variance; NaN for what was held fixed.
+double StandardError(const FamilyFit& fit, const std::string& parameter) {
+  const auto found = std::find(fit.parameter_names.begin(), fit.parameter_names.end(), parameter);
+  const auto index = static_cast<Eigen::Index>(found - fit.parameter_names.begin());
+  if (found == fit.parameter_names.end() || index >= fit.covariance.rows()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::sqrt(fit.covariance(index, index));
+}
+
 std::string CoefficientLines(const FamilyFit& fit) {
-  const auto values =
-      std::visit([](const auto& shape) { return Values(shape); }, fit.curve.shape());
+  const std::vector<std::string> names = ParameterNames(fit.curve.shape());
+  const std::vector<double> values = ParameterValues(fit.curve.shape());
   std::string lines;
-  for (std::size_t i = 0; i < fit.parameter_names.size() && i < values.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    const double variance = k < fit.covariance.rows() ? fit.covariance(k, k) : 0;
-    lines += fmt::format(
-        "    {:<8} {:12.6g} +- {:.2g}\n", fit.parameter_names[i], values[i], std::sqrt(variance));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double error = StandardError(fit, names[i]);
+    lines += fmt::format("    {:<8} {:12.6g}", names[i], values[i]);
+    lines += std::isnan(error) ? " (held)\n" : fmt::format(" +- {:.2g}\n", error);
   }
   return lines;
 }
@@ -64,7 +70,7 @@ std::string PhotoLines(const PhotoMeasurement& photo, const FittedPose& pose, co
                      fitted.pivot_px.y(),
                      fitted.pivot_sigma_px,
                      photo.pivot_source) +
-         fmt::format("    scale  {:.6g} {}/px ({})\n", photo.mm_per_px, unit, photo.scale_source);
+         fmt::format("    scale  {:.6g} {}/px ({})\n", fitted.mm_per_px, unit, photo.scale_source);
 }
 
 }  // namespace

@@ -17,11 +17,12 @@ struct FittedPhoto {
   double pivot_sigma_px = 0;
   Eigen::Vector2d axis_px;  // unit image direction of +x
   double theta_rad = 0, theta_sigma_rad = 0;
+  double mm_per_px = 0;                        // along the axis, at the pivot
   std::vector<Eigen::Vector2d> upper_edge_mm;  // in the blade frame; one a point of upper_edge_px
 };
 
-// Moves what vision measured by the rigid motion of `pose`. The shift is small, so the similarity
-// at the pivot maps it to pixels.
+// Moves what vision measured by the motion and scale of `pose`. The shift is small, so the
+// similarity at the pivot maps it to pixels.
 [[nodiscard]] FittedPhoto ApplyPose(const PhotoMeasurement& photo, const FittedPose& pose);
 
 // The fitted edge beside each located point of the upper edge, in pixels: the point moved along y

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "samples/fit_record.h"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace bladecurve {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Record(const IterationRecord& step) {
+  return {{"iteration", step.iteration},
+          {"cost", step.cost},
+          {"gradient_max", step.gradient_max},
+          {"step_norm", step.step_norm}};
+}
+
+Json Record(const UndeterminedDirection& open) {
+  return {{"text", open.text}, {"direction", open.direction}};
+}
+
+Json Record(const KnotCandidate& tried) {
+  return {
+      {"degree", tried.degree}, {"spans", tried.spans}, {"chi2", tried.chi2}, {"bic", tried.bic}};
+}
+
+const char* EdgeName(bool is_upper) { return is_upper ? "upper" : "lower"; }
+
+Json Record(const RejectedPoint& point) {
+  return {{"photo", point.photo},
+          {"edge", EdgeName(point.is_upper)},
+          {"index", point.index},
+          {"sigmas", point.sigmas}};
+}
+
+Json Record(const EdgeFinding& edge) {
+  return {{"photo", edge.photo},
+          {"edge", EdgeName(edge.is_upper)},
+          {"used", edge.used},
+          {"points", edge.points},
+          {"rejected", edge.rejected},
+          {"sigma_scale", edge.sigma_scale},
+          {"correlation_points", edge.correlation_points}};
+}
+
+Json Record(const ResidualTests& tests) {
+  return {{"runs", tests.runs},
+          {"runs_z", tests.runs_z},
+          {"autocorrelation", tests.autocorrelation},
+          {"correlation_points", tests.correlation_points},
+          {"chi2_per_freedom", tests.chi2_per_freedom}};
+}
+
+Json Record(const Influence& influence) {
+  return {{"largest_leverage", influence.largest_leverage},
+          {"largest_cook", influence.largest_cook},
+          {"photo", influence.photo},
+          {"index", influence.index}};
+}
+
+Json Record(const GainFinding& gain) {
+  return {{"gain", gain.gain}, {"sigma", gain.sigma}, {"chi2_per_freedom", gain.chi2_per_freedom}};
+}
+
+Json Record(const FamilyDifference& difference) {
+  return {{"largest_mm", difference.largest_mm},
+          {"at_x_mm", difference.at_x_mm},
+          {"at_theta_rad", difference.at_theta_rad},
+          {"largest_torque", difference.largest_torque},
+          {"torque_at_theta_rad", difference.torque_at_theta_rad},
+          {"near_closing_mm", difference.near_closing_mm},
+          {"near_closing_torque", difference.near_closing_torque},
+          {"near_closing_theta_rad", difference.near_closing_theta_rad}};
+}
+
+template <typename Item>
+Json Records(const std::vector<Item>& items) {
+  Json record = Json::array();
+  for (const Item& item : items) record.push_back(Record(item));
+  return record;
+}
+
+Json CriterionRecord(const BladeFit& fit) {
+  return {{"name", "bic"},
+          {"value", fit.recommended.bic},
+          {"aicc", fit.recommended.aicc},
+          {"why", fit.why_recommended},
+          {"knots_tried", Records(fit.knots_tried)}};
+}
+
+}  // namespace
+
+Json FitRecord(const BladeFit& fit, double mm_per_px) {
+  const FamilyFit& chosen = fit.recommended;
+  return {{"rms_mm", chosen.rms_mm},
+          {"rms_px", chosen.rms_mm / mm_per_px},
+          {"points", chosen.points},
+          {"inliers", chosen.inliers},
+          {"effective_points", chosen.effective_points},
+          {"chi2", chosen.chi2},
+          {"freedom", chosen.freedom},
+          {"sigma_scale", chosen.sigma_scale},
+          {"condition_number", chosen.condition_number},
+          {"rank", chosen.rank},
+          {"num_parameters", chosen.num_parameters},
+          {"undetermined", Records(chosen.undetermined)},
+          {"limits", chosen.limits},
+          {"iterations", chosen.iterations},
+          {"converged", chosen.converged},
+          {"termination", chosen.termination},
+          {"trace", Records(chosen.trace)},
+          {"criterion", CriterionRecord(fit)},
+          {"theta_definition", fit.theta_definition},
+          {"gain", Record(fit.gain)},
+          {"families_difference", Record(fit.difference)},
+          {"residual_tests", Record(chosen.residual_tests)},
+          {"influence", Record(chosen.influence)},
+          {"edges", Records(fit.edges)},
+          {"rejected", Records(fit.rejected)}};
+}
+
+Json MatrixRecord(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace bladecurve
