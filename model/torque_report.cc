@@ -53,7 +53,7 @@ void TorqueStep::Report() noexcept {
   out.torque_nmm = TorqueNow();
   const double lever_mm = tip.x_mm * tip.cos_alpha;
   out.normal_force_n = lever_mm > kLeastLever_mm ? out.torque_nmm / lever_mm : 0;
-  out.force_x_n = -out.normal_force_n * tip.sin_slope;
+  out.force_x_n = 0 - out.normal_force_n * tip.sin_slope;  // 0, not -0, without contact
   out.x_c_mm = tip.x_mm;
   out.delta_mm = tip.delta_mm;
   out.flags = tip.edge.flags | flags_;

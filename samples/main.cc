@@ -72,7 +72,10 @@ int Complain(const CLI::App& app, const std::string& message, ExitCode exit_code
   return exit_code;
 }
 
-void AddCommands(CLI::App& app, int* exit_code) { AddFit(app, exit_code); }
+void AddCommands(CLI::App& app, int* exit_code) {
+  AddFit(app, exit_code);
+  AddTorque(app, exit_code);
+}
 
 int Run(int argc, char** argv) {
   CLI::App app("From a photograph of scissors to a blade curve that cuts.", "bladecurve");

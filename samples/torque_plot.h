@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "samples/cut_run.h"
+
+namespace bladecurve {
+
+// A self-contained SVG of the torque over the opening angle (closing runs to the right): phases
+// coloured and named, events marked.
+[[nodiscard]] std::string TorquePlotSvg(const CutRun& run, const std::string& title);
+
+}  // namespace bladecurve
