@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "curvefit/fit_report.h"
 #include "model/blade_curve.h"
 #include "vision/edge_points.h"
 
@@ -17,50 +18,77 @@ enum class Family { kAuto, kTaperedRectangle, kRigidSpline };
 
 struct FitOptions {
   Family family = Family::kAuto;
-  std::optional<double> gain = 0.5;    // of the tapered form; nullopt: free (needs photographs at two angles)
-  std::optional<int> degree;           // of the spline; nullopt: the lowest that the edge needs
-  std::optional<int> num_spans;        // polynomial pieces of the spline; nullopt: chosen by the criterion
-  std::string loss = "huber";          // "none", "huber", "cauchy", "tukey"; scale tied to sigma
-  int num_threads = 1;
+  std::optional<double> gain =
+      0.5;  // of the tapered form; nullopt: free (needs photographs at two angles)
+  std::optional<int> degree;  // of the spline; nullopt: the lowest that the edge needs
+  std::optional<int>
+      num_spans;  // polynomial pieces of the spline; nullopt: chosen by the criterion
+  std::optional<std::vector<double>>
+      knots_mm;                // interior knots, increasing; then num_spans is not asked
+  std::string loss = "huber";  // "none", "huber", "cauchy", "tukey"; scale tied to sigma
+  int num_threads = 1;         // kept for callers; the fit takes milliseconds on one
+};
+
+// Where one photograph's scissors lie, refined by the fit: a rigid motion of the frame of its
+// EdgePoints.
+struct FittedPose {
+  Eigen::Vector2d pivot_mm = Eigen::Vector2d::Zero();
+  double axis_rad = 0;  // of +x, in the frame of the EdgePoints
+  double theta_rad = 0;
+  double pivot_sigma_mm = 0, axis_sigma_rad = 0, theta_sigma_rad = 0;
+  double scale_relative = 0;  // the photograph's lengths times 1 + this are mm
+  double offset_mm = 0;       // of its edges along their normals, out of the blades
+  double rms_mm = 0;          // of the upper edge
 };
 
 // What the solver did, for one family. Reals that were never set are NaN.
 struct FamilyFit {
-  BladeCurve curve;
-  std::vector<std::string> parameter_names;    // "a_mm", "b", "gain" or "c0_mm", "c1_mm", ...
-  Eigen::MatrixXd covariance;                  // of them, in that order
-  double rms_mm = std::numeric_limits<double>::quiet_NaN();
-  int points = 0, inliers = 0;
-  double effective_points = 0;                 // neighbours are correlated
-  double condition_number = std::numeric_limits<double>::quiet_NaN();
-  int rank = 0;
+  BladeCurve curve{TaperedRectangle{}, {0, 1, 0, 1}};  // y = 0 until one is fitted
+  std::vector<std::string>
+      parameter_names;            // "a_mm", "b", "gain" (if free) or "c0_mm", "c1_mm", ...
+  Eigen::MatrixXd covariance;     // of them, in that order; all systematic parts included
+  std::vector<FittedPose> poses;  // one a photograph
+  double rms_mm = kNotSet;        // orthogonal, of the upper edges' inliers
+  int points = 0, inliers = 0;    // of the upper edges
+  double effective_points = 0;    // neighbours are correlated
+  double chi2 = kNotSet, freedom = kNotSet;  // of edges and pose observations together
+  double sigma_scale = 1;  // > 1: the family misses the edge, and sigma was widened by this
+  double condition_number = kNotSet;
+  int rank = 0, num_parameters = 0;  // shape and poses
+  std::vector<UndeterminedDirection> undetermined;
+  std::vector<std::string> limits;  // what kept the fit from being better: active limits, in words
   int iterations = 0;
   bool converged = false;
-  std::string termination;                     // the reason for stopping, in words
-  double aicc = std::numeric_limits<double>::quiet_NaN();
-};
-
-// Where one photograph's scissors lie, refined by the fit: a rigid motion of the frame of its EdgePoints.
-struct FittedPose {
-  Eigen::Vector2d pivot_mm = Eigen::Vector2d::Zero();
-  double axis_rad = 0;                         // of +x, in the frame of the EdgePoints
-  double theta_rad = 0;
-  double pivot_sigma_mm = 0, axis_sigma_rad = 0, theta_sigma_rad = 0;
-  double rms_mm = 0;
+  std::string termination;  // the reason for stopping, in words
+  std::vector<IterationRecord> trace;
+  double bic = kNotSet, aicc = kNotSet;  // with the effective number of points
+  ResidualTests residual_tests;
+  Influence influence;
 };
 
 struct BladeFit {
   FamilyFit recommended;
   std::vector<FamilyFit> alternatives;
-  std::vector<FittedPose> poses;               // one a photograph, of the recommended fit
-  double largest_difference_mm = 0;            // between the families over the theta domain
-  double largest_difference_torque = 0;        // the same of the cutting torque, relative
+  std::vector<FittedPose> poses;         // of the recommended fit
+  double largest_difference_mm = 0;      // between the families over the theta domain
+  double largest_difference_torque = 0;  // the same of the cutting torque, relative
+  FamilyDifference difference;           // where that is
+  GainFinding gain;                      // what the photographs say about the tapered form's gain
   std::string why_recommended;
-  std::vector<std::string> warnings;           // stable codes: "photographs_disagree", "families_part", ...
+  std::string theta_definition;  // "distal-ends", or "given" by the user
+  std::vector<KnotCandidate> knots_tried;
+  std::vector<RejectedPoint> rejected;
+  std::vector<EdgeFinding> edges;
+  std::vector<std::string> warnings;  // stable codes: "photographs_disagree", "families_part", ...
 };
 
-// Fits one blade to all photographs together: shared shape; pivot, axis, theta of each. Orthogonal distances, whitened.
-// Throws std::invalid_argument for impossible options, Refused{kFitFailed, kEdgeTooShort} if no curve can be had.
-[[nodiscard]] BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& options = {});
+// Fits one blade to all photographs together: shared shape; pivot, axis, theta of each. Orthogonal
+// distances, whitened. The scale errors and the common offsets of different photographs are taken
+// as independent. Domain of the curve: x from the first free edge point to the last one's reach at
+// the smallest theta; theta from 0 to 60 deg, or a quarter beyond the largest photographed angle.
+// Throws std::invalid_argument for impossible options, Refused{kFitFailed, kEdgeTooShort} if no
+// curve can be had.
+[[nodiscard]] BladeFit FitBlade(const std::vector<EdgePoints>& photos,
+                                const FitOptions& options = {});
 
 }  // namespace bladecurve

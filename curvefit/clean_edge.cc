@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "curvefit/clean_edge.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "curvefit/linear_spline.h"
+#include "curvefit/statistics.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kRejectSigmas = 4;     // 6 in 100000 good points are lost
+constexpr double kTukeySigmas = 4.685;  // 95 % efficient for Gaussian noise
+constexpr int kMaxSpans =
+    12;  // of the flexible spline: a wave of a twelfth of the blade is still shape
+constexpr int kSamplesPerSpan = 10;
+constexpr double kStiffness = 1e-6;  // bridges a nick without bending the rest
+constexpr int kTrials =
+    400;  // finds 4 good points of 4 among 60 % bad ones with probability 0.9999
+constexpr int kScoredPoints = 400;
+constexpr double kSupport = 0.4;  // this part of the points at least is the edge
+constexpr double kMedianOfHalfNormal = 0.6745;
+
+// A point's place in the edge, its weight without the correlation, and how far it is off.
+struct Cleaning {
+  std::vector<FlatPoint> points;  // in the edge's own order, weight: 1/sigma of a point by itself
+  SplineSpace space;
+  std::vector<double> sigmas;  // of each point off the current curve
+};
+
+double MedianSize(std::vector<double> values) {
+  for (double& v : values) v = std::abs(v);
+  return Quantile(std::move(values), 0.5);
+}
+
+void Refit(const std::vector<double>& trust, Cleaning& c) {
+  std::vector<FlatPoint> weighted = c.points;
+  for (size_t i = 0; i < weighted.size(); ++i) weighted[i].weight *= trust[i];
+  const LinearSpline fit = FitLinearSpline(weighted, c.space, kStiffness);
+  for (size_t i = 0; i < weighted.size(); ++i) {
+    const BasisRow basis = EvalBasis(c.space, c.points[i].u);
+    double s = 0;
+    for (int j = 0; j <= c.space.degree; ++j) {
+      s += basis.value[j] * fit.coefficients(basis.first + j);
+    }
+    c.sigmas[i] = c.points[i].weight * (c.points[i].v - s);
+  }
+}
+
+// The polynomial through the points picked, in powers of u - centre.
+Eigen::Vector4d Through(const std::array<FlatPoint, 4>& picked, int degree, double centre) {
+  Eigen::Matrix4d powers = Eigen::Matrix4d::Identity();
+  Eigen::Vector4d values = Eigen::Vector4d::Zero();
+  for (int i = 0; i <= degree; ++i) {
+    for (int j = 0; j <= degree; ++j) powers(i, j) = std::pow(picked[i].u - centre, j);
+    values(i) = picked[i].v;
+  }
+  return powers.partialPivLu().solve(values);
+}
+
+double PolynomialAt(const Eigen::Vector4d& p, double t) {
+  return p(0) + t * (p(1) + t * (p(2) + t * p(3)));
+}
+
+// The cubic that the best-fitting 40 % of the points agree on: least quantile of squares (Rousseeuw
+// 1984) over points picked one from each quarter of the edge.
+Eigen::Vector4d BestSupported(const std::vector<FlatPoint>& points, double centre) {
+  std::mt19937 random(20080531);  // any fixed seed: the same input gives the same curve
+  const size_t n = points.size();
+  const int degree = n < 12 ? 1 : 3;  // a cubic through 4 of fewer points explains anything
+  const size_t step = std::max<size_t>(1, n / kScoredPoints);
+  Eigen::Vector4d best = Eigen::Vector4d::Zero();
+  double best_score = std::numeric_limits<double>::infinity();
+  std::vector<double> sizes;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::array<FlatPoint, 4> picked;
+    for (int q = 0; q <= degree; ++q) {
+      const size_t begin = q * n / (degree + 1), end = (q + 1) * n / (degree + 1);
+      picked[q] = points[begin + random() % (end - begin)];
+    }
+    const Eigen::Vector4d p = Through(picked, degree, centre);
+    sizes.clear();
+    for (size_t i = 0; i < n; i += step) {
+      sizes.push_back(points[i].weight *
+                      std::abs(points[i].v - PolynomialAt(p, points[i].u - centre)));
+    }
+    const double score = Quantile(sizes, kSupport);
+    if (score < best_score) best_score = score, best = p;
+  }
+  return best;
+}
+
+// Scatter of the points that belong to the edge, in units of sigma; starts wide and closes in.
+double InlierScale(const std::vector<double>& sigmas, double scale) {
+  std::vector<double> inside;
+  for (const double s : sigmas) {
+    if (std::abs(s) < kTukeySigmas * scale) inside.push_back(s);
+  }
+  if (inside.empty()) return scale;
+  return std::max(1.0, MedianSize(inside) / kMedianOfHalfNormal);
+}
+
+// Tukey's biweight by reweighting, from the curve that the largest minority supports. Returns the
+// scatter.
+double FitRobustly(Cleaning& c) {
+  const double centre = c.points[c.points.size() / 2].u;
+  const Eigen::Vector4d start = BestSupported(c.points, centre);
+  for (size_t i = 0; i < c.points.size(); ++i) {
+    c.sigmas[i] =
+        c.points[i].weight * (c.points[i].v - PolynomialAt(start, c.points[i].u - centre));
+  }
+  std::vector<double> sizes = c.sigmas;
+  for (double& s : sizes) s = std::abs(s);
+  double scale = std::max(1.0, Quantile(std::move(sizes), kSupport));
+  constexpr int kRounds = 12;
+  std::vector<double> trust(c.points.size());
+  for (int round = 0; round < kRounds; ++round) {
+    scale = InlierScale(c.sigmas, scale);
+    for (size_t i = 0; i < trust.size(); ++i) {
+      const double t = c.sigmas[i] / (kTukeySigmas * scale);
+      trust[i] = std::abs(t) < 1 ? 1 - t * t : 0;
+    }
+    Refit(trust, c);
+  }
+  return InlierScale(c.sigmas, scale);
+}
+
+Cleaning StartCleaning(const EdgeSamples& edge, const Pose& pose, bool is_upper) {
+  Cleaning c;
+  for (int i = 0; i < edge.size(); ++i) {
+    const Eigen::Vector2d p = ToBladeFrame(pose, edge.points[i], is_upper);
+    c.points.push_back({p.x(), p.y(), edge.weights[i] * edge.inflation});
+  }
+  std::vector<FlatPoint> sorted = c.points;
+  std::sort(sorted.begin(), sorted.end(), [](const FlatPoint& a, const FlatPoint& b) {
+    return a.u < b.u;
+  });
+  const int spans = std::clamp(static_cast<int>(edge.effective() / kSamplesPerSpan), 1, kMaxSpans);
+  const int degree = std::clamp(static_cast<int>(edge.effective() / 2) - 1, 1, 3);
+  c.space = ClampedSpace(degree,
+                         sorted.front().u,
+                         std::max(sorted.back().u, std::nextafter(sorted.front().u, 1e300)),
+                         QuantileKnots(sorted, spans));
+  c.sigmas.resize(c.points.size());
+  Refit(std::vector<double>(c.points.size(), 1.0), c);
+  return c;
+}
+
+// Keeps the points within the bound, lists the others.
+CleanReport Reject(double bound, const Cleaning& c, EdgeSamples& edge, std::vector<double>& kept) {
+  CleanReport report;
+  EdgeSamples good;
+  good.inflation = edge.inflation;
+  for (int i = 0; i < edge.size(); ++i) {
+    if (std::abs(c.sigmas[i]) > bound) {
+      report.rejected.push_back({edge.indices[i], c.sigmas[i]});
+      continue;
+    }
+    good.points.push_back(edge.points[i]);
+    good.weights.push_back(edge.weights[i]);
+    good.indices.push_back(edge.indices[i]);
+    kept.push_back(c.sigmas[i]);
+  }
+  edge = std::move(good);
+  return report;
+}
+
+// Larger sigmas where the scatter or the correlation of neighbours is beyond doubt larger than was
+// said.
+void Widen(const Cleaning& c,
+           const std::vector<double>& kept,
+           EdgeSamples& edge,
+           CleanReport& report) {
+  const double freedom = edge.effective() - c.space.size();
+  if (freedom < 1) return;
+  double chi2 = 0;
+  for (const double s : kept) chi2 += s * s;
+  chi2 /= edge.inflation * edge.inflation;
+  if (chi2 > ChiSquareQuantile(freedom, 0.999)) report.sigma_scale = std::sqrt(chi2 / freedom);
+  const double said = edge.inflation * edge.inflation;
+  const double seen = CorrelatedNeighbours(kept);
+  // The estimate scatters by about 3 / sqrt(samples); a quarter of percent of good edges exceed
+  // this.
+  const double beyond_doubt = 1 + 8 / std::sqrt(edge.effective());
+  const double more = seen > beyond_doubt * said ? std::sqrt(seen / said) : 1;
+  edge.inflation *= more;
+  report.correlation_points = edge.inflation * edge.inflation;
+  for (double& w : edge.weights) w /= more * report.sigma_scale;
+}
+
+}  // namespace
+
+CleanReport CleanEdge(EdgeSamples& edge, const Pose& pose, bool is_upper, bool reject) {
+  if (edge.size() < 3) return {};
+  Cleaning c = StartCleaning(edge, pose, is_upper);
+  double scale = std::max(1.0, MedianSize(c.sigmas) / kMedianOfHalfNormal);
+  const auto beyond = [&](double s) { return std::abs(s) > kRejectSigmas * scale; };
+  const bool suspicious = std::any_of(c.sigmas.begin(), c.sigmas.end(), beyond);
+  constexpr int kFewest = 6;  // with fewer points a majority means nothing
+  if (reject && suspicious && edge.size() >= kFewest) {
+    scale = FitRobustly(c);
+  } else {
+    scale = std::numeric_limits<double>::infinity();
+  }
+  std::vector<double> kept;
+  CleanReport report = Reject(kRejectSigmas * scale, c, edge, kept);
+  Widen(c, kept, edge, report);
+  return report;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "curvefit/fit_report.h"
+#include "model/blade_curve.h"
+
+namespace bladecurve {
+
+// Where two curves of the same domain differ most. Torque: sharp cutting of a thin plate, tau = J_c
+// h phi_theta/phi_x where phi(x, theta) = 0; as a ratio, J_c and h cancel.
+[[nodiscard]] FamilyDifference CompareFamilies(const BladeCurve& a, const BladeCurve& b);
+
+}  // namespace bladecurve

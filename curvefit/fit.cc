@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "curvefit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "curvefit/choose_knots.h"
+#include "curvefit/clean_edge.h"
+#include "curvefit/compare_families.h"
+#include "curvefit/family_fit.h"
+#include "curvefit/mirror.h"
+#include "curvefit/recommend.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr int kThinned = 256;  // points an edge for choosing knots and judging the mirror image
+constexpr double kDegree = std::numbers::pi / 180;
+
+void CheckOptions(const std::vector<EdgePoints>& photos, const FitOptions& options) {
+  const auto refuse = [](const std::string& what) { throw std::invalid_argument("fit: " + what); };
+  if (photos.empty()) refuse("no photograph was given");
+  if (options.degree && (*options.degree < 1 || *options.degree > kMaxSplineDegree)) {
+    refuse("degree is " + std::to_string(*options.degree) + "; it must be 1 to 5");
+  }
+  if (options.num_spans && *options.num_spans < 1) {
+    refuse("num_spans is " + std::to_string(*options.num_spans) + "; it must be at least 1");
+  }
+  if (options.gain && !std::isfinite(*options.gain)) refuse("gain is not finite");
+  if (options.num_threads < 1) {
+    refuse("num_threads is " + std::to_string(options.num_threads) + "; it must be at least 1");
+  }
+  const std::vector<double> knots = options.knots_mm.value_or(std::vector<double>{});
+  for (size_t i = 0; i < knots.size(); ++i) {
+    if (!std::isfinite(knots[i]) || (i > 0 && knots[i] <= knots[i - 1])) {
+      refuse("knots_mm must be finite and increasing; entry " + std::to_string(i) + " is not");
+    }
+  }
+}
+
+// Outliers out, sigmas honest; what was done goes into the report.
+void Clean(bool reject, FitData& data, BladeFit& report) {
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    PhotoData& photo = data.photos[p];
+    for (const bool is_upper : {true, false}) {
+      EdgeSamples& edge = is_upper ? photo.upper : photo.lower;
+      if (edge.empty()) continue;
+      const CleanReport clean = CleanEdge(edge, photo.start, is_upper, reject);
+      EdgeFinding finding;
+      finding.photo = static_cast<int>(p);
+      finding.is_upper = is_upper;
+      finding.sigma_scale = clean.sigma_scale;
+      finding.correlation_points = clean.correlation_points;
+      finding.rejected = static_cast<int>(clean.rejected.size());
+      finding.points = edge.size() + finding.rejected;
+      report.edges.push_back(finding);
+      for (const CleanReport::Rejected& r : clean.rejected) {
+        report.rejected.push_back({finding.photo, is_upper, r.index, r.sigmas});
+      }
+    }
+  }
+}
+
+FitData ThinnedData(const FitData& data) {
+  FitData thin{data.length_mm, {}};
+  for (PhotoData photo : data.photos) {
+    photo.upper = Thinned(photo.upper, kThinned);
+    photo.lower = Thinned(photo.lower, kThinned);
+    thin.photos.push_back(std::move(photo));
+  }
+  return thin;
+}
+
+std::vector<FlatPoint> FlatUpperEdges(const FitData& data) {
+  std::vector<FlatPoint> all;
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    const PhotoData& photo = data.photos[p];
+    const std::vector<FlatPoint> flat =
+        Flatten(photo.upper, photo.start, true, static_cast<int>(p));
+    all.insert(all.end(), flat.begin(), flat.end());
+  }
+  std::stable_sort(
+      all.begin(), all.end(), [](const FlatPoint& a, const FlatPoint& b) { return a.u < b.u; });
+  return all;
+}
+
+KnotChoice ChooseSpace(const FitData& data, const FitData& thin, const FitOptions& options) {
+  const std::vector<FlatPoint> points = FlatUpperEdges(thin);
+  KnotRequest request;
+  request.degree = options.degree;
+  request.num_spans = options.num_spans;
+  request.lower = points.front().u;
+  request.upper = std::max(points.back().u, StartingState(data).reach);
+  if (options.knots_mm) {
+    request.interior.emplace();
+    for (const double k : *options.knots_mm) {
+      const double knot = k / data.length_mm;
+      if (knot > request.lower && knot < request.upper) request.interior->push_back(knot);
+    }
+  }
+  for (const PhotoData& photo : data.photos) request.effective_points += photo.upper.effective();
+  return ChooseKnots(points, request);
+}
+
+// The lower edges' points beyond the spline's ends have nothing to be compared with.
+void CutLowerEdges(const SplineSpace& space, FitData& data) {
+  for (PhotoData& photo : data.photos) {
+    EdgeSamples kept;
+    kept.inflation = photo.lower.inflation;
+    for (int i = 0; i < photo.lower.size(); ++i) {
+      const double u = ToBladeFrame(photo.start, photo.lower.points[i], false).x();
+      if (u < space.lower() || u > space.upper()) continue;
+      kept.points.push_back(photo.lower.points[i]);
+      kept.weights.push_back(photo.lower.weights[i]);
+      kept.indices.push_back(photo.lower.indices[i]);
+    }
+    photo.lower = std::move(kept);
+  }
+}
+
+void ApplyVerdict(const MirrorVerdict& verdict, FitData& data, BladeFit& report) {
+  for (EdgeFinding& edge : report.edges) {
+    if (edge.is_upper) continue;
+    const auto p = static_cast<size_t>(edge.photo);
+    edge.used = verdict.use[p];
+    edge.sigma_scale *= verdict.sigma_scale[p];
+    for (double& w : data.photos[p].lower.weights) w /= verdict.sigma_scale[p];
+  }
+}
+
+// x from the first free edge point, at the widest photographed angle, to the last one's reach when
+// closed.
+CurveDomain DomainOf(const FitData& data, const SplineSpace& space) {
+  CurveDomain domain;
+  double x_min = space.upper(), widest = 0;
+  for (const PhotoData& photo : data.photos) {
+    const double theta = photo.start[kUpperAngle] - photo.start[kLowerAngle];
+    widest = std::max(widest, theta);
+    Pose axis = photo.start;
+    axis[kUpperAngle] -= theta / 2;
+    for (const Eigen::Vector2d& p : photo.upper.points) {
+      x_min = std::min(x_min, ToBladeFrame(axis, p, true).x());
+    }
+  }
+  domain.x_min_mm = x_min * data.length_mm;
+  domain.x_max_mm = space.upper() * data.length_mm;
+  domain.theta_min_rad = 0;
+  // Beyond 170 deg a turned edge is hardly a graph over x any more.
+  domain.theta_max_rad = std::clamp(1.25 * widest, 60 * kDegree, 170 * kDegree);
+  return domain;
+}
+
+JointState SplineStart(const FitData& data, const LinearSpline& spline) {
+  JointState start = StartingState(data);
+  start.shape = ParametersOf(spline.space, spline.coefficients, start.reach, start.zero).free;
+  return start;
+}
+
+void CountRejected(const BladeFit& report, FamilyFit& fit) {
+  for (const RejectedPoint& point : report.rejected) fit.points += point.is_upper ? 1 : 0;
+}
+
+}  // namespace
+
+BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& options) {
+  CheckOptions(photos, options);
+  const Loss loss = LossNamed(options.loss);
+  FitData data = PrepareFitData(photos);
+  BladeFit report;
+  report.theta_definition = data.theta_given() ? "given" : "distal-ends";
+  Clean(loss != Loss::kNone, data, report);
+
+  const KnotChoice choice = ChooseSpace(data, ThinnedData(data), options);
+  const SplineSpace& space = choice.spline.space;
+  CutLowerEdges(space, data);
+  const MirrorVerdict verdict =
+      JudgeMirror(ThinnedData(data), space, loss, SplineStart(data, choice.spline));
+  ApplyVerdict(verdict, data, report);
+
+  const FamilyInput input{data, verdict.use, DomainOf(data, space)};
+  FamilyFit spline = FitSpline(input, space, verdict.state, loss);
+  if (choice.limited_by_data)
+    spline.limits.emplace_back("knots: fewer than asked for, the points support no more");
+  FamilyFit tapered = FitTapered(input, options.gain);
+  CountRejected(report, spline);
+  CountRejected(report, tapered);
+  report.knots_tried = choice.tried;
+  Recommend(input, options, std::move(spline), std::move(tapered), report);
+  return report;
+}
+
+}  // namespace bladecurve

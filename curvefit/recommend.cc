@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "curvefit/recommend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "curvefit/compare_families.h"
+#include "curvefit/linear_spline.h"
+#include "curvefit/statistics.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSeveralAngles =
+    2 * kDegree;                     // angles closer than this say nothing about the families
+constexpr double kTorquePart = 0.1;  // the paper's own model is off by about as much
+constexpr double kGivenApart = 1 * kDegree;  // a given theta further from the ends' is doubtful
+
+double AngleSpread(const std::vector<FittedPose>& poses) {
+  const auto less = [](const FittedPose& a, const FittedPose& b) {
+    return a.theta_rad < b.theta_rad;
+  };
+  const auto [low, high] = std::minmax_element(poses.begin(), poses.end(), less);
+  return high->theta_rad - low->theta_rad;
+}
+
+bool TaperedPreferred(const FitOptions& options,
+                      const FamilyFit& spline,
+                      const FamilyFit& tapered,
+                      std::string& why) {
+  if (options.family != Family::kAuto) {
+    why = "asked for";
+    return options.family == Family::kTaperedRectangle;
+  }
+  if (AngleSpread(spline.poses) < kSeveralAngles) {
+    why = "photographs at one angle: a rigid turn of the edge seen is assumed";
+    return false;
+  }
+  const bool tapered_explains = tapered.bic <= spline.bic;
+  why = tapered_explains ? "the tapered form explains several angles as well, with fewer parameters"
+                         : "the rigid spline explains the edges at several angles better";
+  return tapered_explains;
+}
+
+// The gain that the photographs themselves have, whichever was asked for.
+GainFinding FindGain(const FamilyInput& input, const FamilyFit& spline) {
+  GainFinding finding;
+  if (AngleSpread(spline.poses) < kSeveralAngles) return finding;
+  const FamilyFit fit = FitTapered(input, std::nullopt);
+  if (fit.parameter_names.size() < 3) return finding;
+  finding.gain = std::get<TaperedRectangle>(fit.curve.shape()).gain;
+  finding.sigma = std::sqrt(fit.covariance(2, 2));
+  finding.chi2_per_freedom = fit.chi2 / std::max(fit.freedom, 1.0);
+  return finding;
+}
+
+// One shape for all photographs, or each its own? chi2 of the upper edges in the joint fit against
+// each alone.
+bool PhotographsDisagree(const FamilyInput& input, const FamilyFit& spline) {
+  if (input.data.photos.size() < 2) return false;
+  constexpr double kVisible =
+      0.5;  // a difference below half the scatter of the points matters to nobody
+  return spline.sigma_scale > std::sqrt(1 + kVisible * kVisible);
+}
+
+bool Torn(const FamilyFit& spline) { return spline.residual_tests.chi2_per_freedom > 4; }
+
+void Warn(const FamilyInput& input, const FamilyFit& spline, BladeFit& report) {
+  const auto warn = [&](const char* code) { report.warnings.emplace_back(code); };
+  if (PhotographsDisagree(input, spline) || (input.data.photos.size() > 1 && Torn(spline))) {
+    warn("photographs_disagree");
+  }
+  if (report.largest_difference_torque > kTorquePart) warn("families_part");
+  if (!spline.converged) warn("not_converged");
+}
+
+}  // namespace
+
+void Recommend(const FamilyInput& input,
+               const FitOptions& options,
+               FamilyFit spline,
+               FamilyFit tapered,
+               BladeFit& report) {
+  const bool take_tapered = TaperedPreferred(options, spline, tapered, report.why_recommended);
+  report.difference = CompareFamilies(tapered.curve, spline.curve);
+  report.largest_difference_mm = report.difference.largest_mm;
+  report.largest_difference_torque = report.difference.largest_torque;
+  report.gain = FindGain(input, spline);
+  Warn(input, spline, report);
+  report.recommended = take_tapered ? tapered : spline;
+  report.alternatives = {take_tapered ? std::move(spline) : std::move(tapered)};
+  report.poses = report.recommended.poses;
+}
+
+}  // namespace bladecurve
