@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "model/kernel_contacts.h"
+#include "model/kernel_phi.h"
 #include "model/prepared_blade.h"
 
 namespace bladecurve {

@@ -94,9 +94,8 @@ OrderedJson StandardErrorsJson(const BladeFile& blade, const std::vector<std::st
 
 std::vector<std::string> ParameterNames(const BladeShape& shape) {
   if (std::holds_alternative<TaperedRectangle>(shape)) return {"a_mm", "b", "gain"};
-  std::vector<std::string> names;
-  const std::size_t count = std::get<RigidSpline>(shape).coefficients_mm.size();
-  for (std::size_t i = 0; i < count; ++i) names.push_back("c" + std::to_string(i) + "_mm");
+  std::vector<std::string> names(std::get<RigidSpline>(shape).coefficients_mm.size(), "c");
+  for (std::size_t i = 0; i < names.size(); ++i) names[i] += std::to_string(i) + "_mm";
   return names;
 }
 

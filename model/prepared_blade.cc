@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/kernel_polynomial.h"
+
 namespace bladecurve {
 namespace {
 
@@ -21,6 +23,8 @@ constexpr double kShortestSpan = 1e-9;  // of the whole: rejects knots that were
 constexpr double kEndSlack =
     1e-12;  // a point this near the spline's end (relative) is not beyond it
 constexpr double kNearSpan = 1e-8;  // Taylor's remainder, its third power, is below rounding
+
+constexpr double kBeyondAll = 1e12;  // no step towards an x within kFarthest gets there
 
 std::string Text(double value) {
   std::array<char, 32> buffer;
@@ -168,7 +172,7 @@ void AppendRows(const RigidSpline& spline, PreparedBlade& blade) {
   const auto first_tangent = TaylorOnSpan(spline, degree, knots.front());
   const auto last_tangent = TaylorOnSpan(spline, last, knots.back());
   AppendRow(blade, knots.front(), {first_tangent[0], first_tangent[1]});
-  blade.ends = {-4 * kFarthest, knots.front() - slack};
+  blade.ends = {-kBeyondAll, knots.front() - slack};
   for (std::size_t i = degree; i <= last; ++i) {
     if (knots[i] == knots[i + 1]) continue;
     const double centre = 0.5 * (knots[i] + knots[i + 1]);
@@ -176,7 +180,7 @@ void AppendRows(const RigidSpline& spline, PreparedBlade& blade) {
     blade.ends.push_back(i == last ? knots[i + 1] + slack : knots[i + 1]);
   }
   AppendRow(blade, knots.back(), {last_tangent[0], last_tangent[1]});
-  blade.ends.push_back(4 * kFarthest);
+  blade.ends.push_back(kBeyondAll);
 }
 
 // Where s' is least and greatest: at a span's ends or where s'' is 0.
@@ -218,19 +222,28 @@ double ShortestSpan(const PreparedBlade& blade) {
   return shortest;
 }
 
+void UseRows(PreparedBlade& blade) {
+  blade.kernel.num_rows = static_cast<int>(blade.ends.size()) - 1;
+  blade.kernel.rows = blade.rows.data();
+  blade.kernel.ends = blade.ends.data();
+}
+
 void Prepare(const TaperedRectangle& shape, PreparedBlade& blade) {
   blade.kernel.a = shape.a_mm;
   blade.kernel.b = shape.b;
   blade.kernel.gain = shape.gain;
+  blade.kernel.degree = 1;
+  AppendRow(blade, 0, {});
+  blade.ends = {-kBeyondAll, kBeyondAll};
+  UseRows(blade);
 }
 
 void Prepare(const RigidSpline& spline, PreparedBlade& blade) {
   AppendRows(spline, blade);
   BladeKernel& kernel = blade.kernel;
+  UseRows(blade);
+  kernel.is_spline = 1;
   kernel.degree = spline.degree;
-  kernel.num_rows = static_cast<int>(blade.ends.size()) - 1;
-  kernel.rows = blade.rows.data();
-  kernel.ends = blade.ends.data();
   const double length = spline.knots_mm.back() - spline.knots_mm.front();
   kernel.chord_slope = (spline.coefficients_mm.back() - spline.coefficients_mm.front()) / length;
   kernel.chord_offset =

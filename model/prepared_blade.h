@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/blade_curve.h"
-#include "model/blade_kernel.h"
+#include "model/kernel_spline.h"
 
 namespace bladecurve {
 

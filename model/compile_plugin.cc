@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "model/export.h"
+
+extern char** environ;
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own that disappears again.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "bladecurve-XXXXXX").string();
+    if (!mkdtemp(name.data())) {
+      throw std::runtime_error("export: no temporary folder in " +
+                               fs::temp_directory_path().string() + ": " + std::strerror(errno) +
+                               "; set TMPDIR to one that is writable");
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// $CC may hold flags: "ccache gcc -m64".
+std::vector<std::string> Compiler() {
+  const char* cc = std::getenv("CC");
+  std::istringstream words(cc ? cc : "");
+  std::vector<std::string> compiler{std::istream_iterator<std::string>(words), {}};
+  if (compiler.empty()) compiler.emplace_back("cc");
+  return compiler;
+}
+
+// Runs a program found on the PATH with its messages in a file; its exit code, 127 if there is
+// none.
+int Run(std::vector<std::string> words, const fs::path& messages) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(
+      &actions, 2, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_adddup2(&actions, 2, 1);
+  pid_t child = 0;
+  const int error =
+      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) return 127;
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+}
+
+std::string FirstLine(const fs::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line.empty() ? "no message" : line;
+}
+
+void WriteText(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+    throw std::runtime_error("export: cannot write " + path.string() + "; is the disk full?");
+}
+
+// By way of a neighbour, so that a reader never sees half a library.
+void PutInPlace(const fs::path& from, const fs::path& to) {
+  const fs::path neighbour = to.string() + "." + std::to_string(getpid()) + ".part";
+  std::error_code error;
+  fs::copy_file(from, neighbour, fs::copy_options::overwrite_existing, error);
+  if (!error) fs::rename(neighbour, to, error);
+  if (error) {
+    throw std::runtime_error("export: cannot write " + to.string() + ": " + error.message() +
+                             "; give a folder that exists and is writable");
+  }
+}
+
+}  // namespace
+
+void CompilePlugin(const std::string& source, const fs::path& library) {
+  const ScratchFolder scratch;
+  const fs::path text = scratch.path() / "blade.c";
+  const fs::path built = scratch.path() / "blade.so";
+  const fs::path messages = scratch.path() / "messages";
+  WriteText(text, source);
+  std::vector<std::string> words = Compiler();
+  const std::string compiler = words.front();
+  for (const char* word : {"-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-o"}) {
+    words.emplace_back(word);
+  }
+  words.insert(words.end(), {built.string(), text.string(), "-lm"});
+  const int code = Run(words, messages);
+  if (code == 127) {
+    throw std::runtime_error("export: there is no C compiler \"" + compiler +
+                             "\"; install one or name it in CC, or use --as c and compile that");
+  }
+  if (code != 0) {
+    throw std::runtime_error("export: " + compiler + " failed: " + FirstLine(messages) +
+                             "; name another C compiler in CC");
+  }
+  PutInPlace(built, library);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,85 @@
+/* SPDX-FileCopyrightText: 2026 The bladecurve authors
+ * SPDX-License-Identifier: MIT
+ *
+ * One blade ready to evaluate, and its spline s(u). Lengths mm, angles rad. C99 and C++.
+ */
+#ifndef BLADECURVE_KERNEL_SPLINE_H
+#define BLADECURVE_KERNEL_SPLINE_H
+
+enum { kMaxDegree = 5, kRowSize = kMaxDegree + 2 };
+
+/* Inputs beyond this are taken for this, so that nothing overflows: a thousand kilometres. */
+static const double kFarthest = 1e9;
+
+/* One blade, ready to evaluate. A spline s(u) is a row {centre, c0 .. c5} for each span,
+ * s = sum c_i (u - centre)^i, with a straight continuation as first and last row. */
+typedef struct BladeKernel {
+  double x_min, x_max, theta_min, theta_max;
+  double a, b, gain; /* tapered rectangle */
+  int is_spline;     /* 0: a tapered rectangle; its row, a line of zeros, is not used */
+  int degree;
+  int num_rows;
+  const double* rows;
+  const double* ends; /* num_rows + 1 values of u: row i holds from ends[i] to ends[i + 1] */
+  double chord_offset, chord_slope; /* the straight line between the spline's two ends */
+  double slope_min, slope_max;      /* of s', and where it is so */
+  double u_slope_min, u_slope_max;
+  double near_mm; /* a Newton step this small is finished by Taylor's series */
+} BladeKernel;
+
+/* The spline and its Taylor coefficients at u: s, s', s''/2, s'''/6. */
+typedef struct SplinePoint {
+  double u, s, s1, s2, s3;
+  int row;
+} SplinePoint;
+
+static inline double Clamp(double value, double low, double high) {
+  return value < low ? low : (value > high ? high : value);
+}
+
+static inline int RowAt(const BladeKernel* k, double u) {
+  int row = 0, count = k->num_rows - 1;
+  while (count > 0) {
+    const int half = (count + 1) / 2;
+    row += k->ends[row + half] <= u ? half : 0;
+    count -= half;
+  }
+  return row;
+}
+
+/* The coefficients beyond the degree are 0. */
+static inline SplinePoint PointOnRow(const BladeKernel* k, int row, double u) {
+  const double* c = k->rows + kRowSize * row + 1;
+  const double t = u - c[-1];
+  const double tt = t * t;
+  SplinePoint p;
+  p.u = u;
+  p.row = row;
+  p.s = (c[0] + c[1] * t) + tt * (c[2] + c[3] * t);
+  p.s1 = c[1] + t * (2.0 * c[2] + 3.0 * c[3] * t);
+  p.s2 = c[2] + 3.0 * c[3] * t;
+  p.s3 = c[3];
+  if (k->degree > 3) {
+    const double tc5 = t * c[5];
+    p.s += tt * tt * (c[4] + tc5);
+    p.s1 += tt * t * (4.0 * c[4] + 5.0 * tc5);
+    p.s2 += tt * (6.0 * c[4] + 10.0 * tc5);
+    p.s3 += t * (4.0 * c[4] + 10.0 * tc5);
+  }
+  return p;
+}
+
+static inline SplinePoint PointAt(const BladeKernel* k, double u) {
+  return PointOnRow(k, RowAt(k, u), u);
+}
+
+/* The point a tiny step further, by Taylor's series. */
+static inline SplinePoint Moved(SplinePoint p, double step) {
+  p.u += step;
+  p.s += step * (p.s1 + step * p.s2);
+  p.s1 += step * (2.0 * p.s2 + 3.0 * step * p.s3);
+  p.s2 += 3.0 * step * p.s3;
+  return p;
+}
+
+#endif /* BLADECURVE_KERNEL_SPLINE_H */

@@ -1,0 +1,178 @@
+/* SPDX-FileCopyrightText: 2026 The bladecurve authors
+ * SPDX-License-Identifier: MIT
+ *
+ * The edge turned by theta/2, x = u cos - s sin, y = u sin + s cos, and its point over an x.
+ * C99 and C++.
+ */
+#ifndef BLADECURVE_KERNEL_TURN_H
+#define BLADECURVE_KERNEL_TURN_H
+
+#include <math.h>
+
+#include "model/blade_plugin.h"
+#include "model/kernel_polynomial.h"
+#include "model/kernel_spline.h"
+
+/* dx/du of the turned edge below this counts as standing upright (steeper than about 89.9 deg). */
+static const double kLeastAdvance = 1e-3;
+
+/* The turn of the blade by theta/2, and the part of the edge that is then a graph over x:
+ * dx/du >= least between u_low and u_high. */
+typedef struct EdgeTurn {
+  double cosine, sine;
+  double least, u_low, u_high;
+  int is_whole; /* the whole edge is a graph */
+} EdgeTurn;
+
+/* tan(theta/4) as a fraction, |theta| <= pi. Minimax of tan(q)/q in q^2, relative error 2e-17, by
+ * the Remez algorithm. The C library's functions would differ in the last bit from one system to
+ * the next, and take longer than all the rest of a tapered rectangle. */
+typedef struct QuarterTangent {
+  double num, den;
+} QuarterTangent;
+
+static inline QuarterTangent QuarterTangentOf(double theta) {
+  const double q = 0.25 * theta, z = q * q;
+  QuarterTangent tangent;
+  tangent.num = q * ((1.0 - 0.12828350168243329619 * z) +
+                     z * z * (0.0028059217245041402614 - 7.4836686415908291604e-6 * z));
+  tangent.den = (1.0 - 0.46161683501576378859 * z) +
+                z * z * (0.023344866729689041094 - 0.00020844854405326998535 * z);
+  return tangent;
+}
+
+/* How far dx/du is below kLeastAdvance on a row, as a polynomial in u - centre. */
+static inline void SteepnessOfRow(const BladeKernel* k, int row, const EdgeTurn* turn, double* c) {
+  const double* s = k->rows + kRowSize * row + 1;
+  int i;
+  for (i = 0; i < kMaxDegree; ++i) c[i] = turn->sine * (i + 1) * s[i + 1];
+  c[0] += kLeastAdvance - turn->cosine;
+}
+
+/* From u outwards, direction -1 or 1: the first u at which the edge is too steep. */
+static inline double GraphEnd(const BladeKernel* k, const EdgeTurn* turn, double u, int direction) {
+  int row = RowAt(k, u);
+  for (; row >= 0 && row < k->num_rows; row += direction) {
+    const double centre = k->rows[kRowSize * row];
+    const double low = (direction > 0 && u > k->ends[row] ? u : k->ends[row]) - centre;
+    const double high = (direction < 0 && u < k->ends[row + 1] ? u : k->ends[row + 1]) - centre;
+    double steepness[kMaxDegree], roots[kMaxDegree], noise;
+    int n;
+    SteepnessOfRow(k, row, turn, steepness);
+    if (Polynomial(steepness, k->degree - 1, direction > 0 ? low : high, &noise) > noise)
+      return centre + (direction > 0 ? low : high);
+    n = PolynomialRoots(steepness, k->degree - 1, low, high, roots);
+    if (n > 0) return centre + (direction > 0 ? roots[0] : roots[n - 1]);
+  }
+  return direction * kFarthest;
+}
+
+/* Where the turned edge is a graph: the part around its flattest place. */
+static void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
+  const double u = turn->sine > 0.0 ? k->u_slope_min : k->u_slope_max;
+  turn->least = kLeastAdvance;
+  turn->u_low = GraphEnd(k, turn, u, -1);
+  turn->u_high = GraphEnd(k, turn, u, 1);
+}
+
+static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
+  const QuarterTangent q = QuarterTangentOf(theta);
+  const double dd = q.den * q.den, nn = q.num * q.num, per = 1.0 / (dd + nn);
+  EdgeTurn turn;
+  turn.cosine = (dd - nn) * per;
+  turn.sine = 2.0 * q.num * q.den * per;
+  turn.least = turn.cosine - turn.sine * (turn.sine > 0.0 ? k->slope_max : k->slope_min);
+  turn.u_low = -kFarthest;
+  turn.u_high = kFarthest;
+  turn.is_whole = turn.least >= kLeastAdvance;
+  if (!turn.is_whole) FindGraph(k, &turn);
+  return turn;
+}
+
+static inline double XOfPoint(const EdgeTurn* turn, SplinePoint p) {
+  return p.u * turn->cosine - p.s * turn->sine;
+}
+
+/* The step along u that lessens the edge's x by `miss`, by reversion of Taylor's series up to the
+ * fourth power; Newton's where that is of no use. */
+static inline double StepBy(const EdgeTurn* turn, SplinePoint p, double miss) {
+  const double per = 1.0 / (turn->cosine - p.s1 * turn->sine);
+  const double step = -miss * per, bend = turn->sine * per * step;
+  const double b = p.s2 * bend, c = p.s3 * step * bend;
+  if (fabs(b) + fabs(c) > 0.1) return step;
+  return step * (1.0 + b * (1.0 + b * (2.0 + 5.0 * b)) + c * (1.0 + 5.0 * b));
+}
+
+static inline int IsOnRow(const BladeKernel* k, int row, double u) {
+  return u >= k->ends[row] && u <= k->ends[row + 1];
+}
+
+/* The point of the edge over x, for an x between those of u_low and u_high, from any start:
+ * Newton's steps, halving the bracket where they leave it or do not shrink. */
+static SplinePoint SearchPointOver(const BladeKernel* k,
+                                   const EdgeTurn* turn,
+                                   double x,
+                                   double start) {
+  SplinePoint p = PointAt(k, Clamp(start, turn->u_low, turn->u_high));
+  const double reach = fabs(XOfPoint(turn, p) - x) / turn->least;
+  double low = p.u - reach > turn->u_low ? p.u - reach : turn->u_low;
+  double high = p.u + reach < turn->u_high ? p.u + reach : turn->u_high;
+  double last_step = high - low;
+  int i;
+  for (i = 0; i < 200; ++i) {
+    const double miss = XOfPoint(turn, p) - x;
+    const double step = -miss / (turn->cosine - p.s1 * turn->sine);
+    double next = p.u + step;
+    if (fabs(step) <= k->near_mm && IsOnRow(k, p.row, next)) return Moved(p, step);
+    if (miss > 0.0)
+      high = p.u;
+    else
+      low = p.u;
+    if (!(next > low && next < high) || fabs(step) > 0.5 * last_step) next = 0.5 * (low + high);
+    if (next == p.u || next == low || next == high) return p;
+    last_step = fabs(next - p.u);
+    p = PointAt(k, next);
+  }
+  return p;
+}
+
+/* The point over x of an edge that is no graph everywhere: where x is beyond the graph, its end,
+ * with its own x, flagged. */
+static SplinePoint PointOfPartOver(const BladeKernel* k,
+                                   const EdgeTurn* turn,
+                                   double* x,
+                                   unsigned* flags) {
+  const SplinePoint low = PointAt(k, turn->u_low), high = PointAt(k, turn->u_high);
+  const double x_low = XOfPoint(turn, low), x_high = XOfPoint(turn, high);
+  if (*x > x_low && *x < x_high) return SearchPointOver(k, turn, *x, 0.5 * (low.u + high.u));
+  *flags |= BLADECURVE_NOT_GRAPH;
+  if (*x <= x_low) {
+    *x = x_low;
+    return low;
+  }
+  *x = x_high;
+  return high;
+}
+
+/* The point of the edge over x. From the spline's chord two steps nearly always do. */
+static inline SplinePoint PointOver(const BladeKernel* k,
+                                    const EdgeTurn* turn,
+                                    double* x,
+                                    unsigned* flags) {
+  const double start =
+      (*x + k->chord_offset * turn->sine) / (turn->cosine - k->chord_slope * turn->sine);
+  SplinePoint p;
+  int i;
+  if (!turn->is_whole) return PointOfPartOver(k, turn, x, flags);
+  p = PointAt(k, start);
+  for (i = 0; i < 4; ++i) {
+    const double step = StepBy(turn, p, XOfPoint(turn, p) - *x);
+    const double next = p.u + step;
+    const int same_row = IsOnRow(k, p.row, next);
+    if (fabs(step) <= k->near_mm && same_row) return Moved(p, step);
+    p = same_row ? PointOnRow(k, p.row, next) : PointAt(k, next);
+  }
+  return SearchPointOver(k, turn, *x, start);
+}
+
+#endif /* BLADECURVE_KERNEL_TURN_H */
