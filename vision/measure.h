@@ -23,14 +23,14 @@ struct SceneHints {
   std::optional<Eigen::Vector2d> pivot_px;
   std::optional<std::array<double, 4>> roi_px;  // x, y, width, height: the scissors to look at
   std::optional<Direction> tips_toward;
-  std::optional<bool> upper_is_left;            // the upper blade is the left one as the picture is seen
+  std::optional<bool> upper_is_left;  // the upper blade is the left one as the picture is seen
   std::optional<double> theta_rad;
 };
 
 struct MeasureOptions {
   ScaleOptions scale;
   SceneHints hints;
-  bool full_plan = false;                       // --plan full: run every stage, needed or not
+  bool full_plan = false;                          // --plan full: run every stage, needed or not
   std::optional<std::filesystem::path> debug_dir;  // pictures of every stage
 };
 
@@ -40,20 +40,20 @@ struct PhotoMeasurement {
   int width = 0, height = 0;
   Eigen::Vector2d pivot_px;
   double pivot_sigma_px = std::numeric_limits<double>::quiet_NaN();
-  std::string pivot_source;                     // "screw", "geometry", "hint"
-  Eigen::Vector2d axis_px;                      // unit direction of +x in the image, at the pivot
+  std::string pivot_source;  // "screw", "geometry", "hint"
+  Eigen::Vector2d axis_px;   // unit direction of +x in the image, at the pivot
   double theta_rad = 0, theta_sigma_rad = 0;
-  std::string theta_source;                     // "distal-ends", "given"
-  double mm_per_px = 0, mm_per_px_sigma = 0;    // along the axis, at the pivot
+  std::string theta_source;                   // "distal-ends", "given"
+  double mm_per_px = 0, mm_per_px_sigma = 0;  // along the axis, at the pivot
   std::string scale_source;
   std::vector<Eigen::Vector2d> upper_edge_px, lower_edge_px;
-  std::vector<Eigen::Vector2d> upper_edge_mm;   // in the frame of `edges`
+  std::vector<Eigen::Vector2d> upper_edge_mm;  // in the frame of `edges`
   double upper_edge_sigma_px = 0;
   Eigen::Vector2d upper_end_px, lower_end_px;
-  std::vector<std::string> warnings;            // each makes the result `review`
+  std::vector<std::string> warnings;  // each makes the result `review`
   std::vector<StageRecord> plan;
   double ms_total = 0;
-  EdgePoints edges;                             // the same in mm, for the curve fit
+  EdgePoints edges;  // the same in mm, for the curve fit
 };
 
 // decode -> scale -> scene -> pivot -> edges -> pose. Throws Refused.

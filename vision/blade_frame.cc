@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/blade_frame.h"
+
+#include <Eigen/Dense>
+
+namespace bladecurve {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+BladeFrame::BladeFrame(const PlaneMap& map,
+                       const Vector2d& pivot_px,
+                       const Vector2d& x_in_plane,
+                       bool upper_on_left)
+    : map_(map), pivot_px_(pivot_px), pivot_in_plane_(map.PlaneFromImage(pivot_px)) {
+  const double side = upper_on_left ? 1 : -1;
+  frame_from_plane_ << x_in_plane.x(), x_in_plane.y(), -side * x_in_plane.y(),
+      side * x_in_plane.x();
+}
+
+Vector2d BladeFrame::FromImage(const Vector2d& image_px) const {
+  return frame_from_plane_ * (map_.PlaneFromImage(image_px) - pivot_in_plane_);
+}
+
+EdgePoint BladeFrame::FromImage(const Vector2d& image_px,
+                                const Vector2d& normal_px,
+                                double sigma_px) const {
+  // A step e along the image normal n moves the edge by e / |J^-T n| along its normal in the plane.
+  const Matrix2d jacobian = frame_from_plane_ * map_.JacobianAt(image_px);
+  const Vector2d normal = jacobian.inverse().transpose() * normal_px;
+  EdgePoint point;
+  point.point_mm = FromImage(image_px);
+  point.normal = normal.normalized();
+  point.sigma_mm = sigma_px / normal.norm();
+  return point;
+}
+
+LocatedPoint BladeFrame::FromImage(const Vector2d& image_px, const Matrix2d& covariance_px2) const {
+  const Matrix2d jacobian = frame_from_plane_ * map_.JacobianAt(image_px);
+  return {FromImage(image_px), jacobian * covariance_px2 * jacobian.transpose()};
+}
+
+Vector2d BladeFrame::axis_px() const {
+  const Matrix2d jacobian = frame_from_plane_ * map_.JacobianAt(pivot_px_);
+  return (jacobian.inverse() * Vector2d::UnitX()).normalized();
+}
+
+double BladeFrame::mm_per_px() const { return (map_.JacobianAt(pivot_px_) * axis_px()).norm(); }
+
+}  // namespace bladecurve

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vision/edge_points.h"
+#include "vision/plane_map.h"
+
+namespace bladecurve {
+
+// The frame of EdgePoints within the plane of the photograph: origin at the pivot, +x along the
+// symmetry line.
+class BladeFrame {
+ public:
+  // x_in_plane: unit; upper_on_left: the upper blade lies counter-clockwise of +x in the plane
+  // (else the frame is mirrored).
+  BladeFrame(const PlaneMap& map,
+             const Eigen::Vector2d& pivot_px,
+             const Eigen::Vector2d& x_in_plane,
+             bool upper_on_left);
+
+  [[nodiscard]] Eigen::Vector2d FromImage(const Eigen::Vector2d& image_px) const;
+  [[nodiscard]] EdgePoint FromImage(const Eigen::Vector2d& image_px,
+                                    const Eigen::Vector2d& normal_px,
+                                    double sigma_px) const;
+  [[nodiscard]] LocatedPoint FromImage(const Eigen::Vector2d& image_px,
+                                       const Eigen::Matrix2d& covariance_px2) const;
+
+  [[nodiscard]] Eigen::Vector2d axis_px() const;  // unit direction of +x in the image, at the pivot
+  [[nodiscard]] double mm_per_px() const;         // along the axis, at the pivot
+
+ private:
+  const PlaneMap& map_;
+  Eigen::Vector2d pivot_px_;
+  Eigen::Vector2d pivot_in_plane_;
+  Eigen::Matrix2d frame_from_plane_;  // orthogonal; a reflection where the frame is mirrored
+};
+
+}  // namespace bladecurve

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "vision/screw.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// From the first to the last point of the edge's proximal 60 %: before a curved blade bends away.
+struct Chord {
+  Vector2d point, direction;
+};
+
+Chord ProximalChord(const std::vector<Vector2d>& edge) {
+  const std::size_t last = std::max<std::size_t>(1, edge.size() * 3 / 5);
+  return {edge.front(), (edge[std::min(last, edge.size() - 1)] - edge.front()).normalized()};
+}
+
+// The line about which the two chords mirror each other: a point and a unit direction towards the
+// tips.
+Chord MirrorLine(const EdgePair& edges) {
+  const Chord a = ProximalChord(edges.left_px);
+  const Chord b = ProximalChord(edges.right_px);
+  const Vector2d direction = (a.direction + b.direction).normalized();
+  const double sine = Cross(a.direction, b.direction);
+  if (std::abs(sine) < 0.02) return {0.5 * (a.point + b.point), direction};  // nearly parallel
+  return {a.point + Cross(b.point - a.point, b.direction) / sine * a.direction, direction};
+}
+
+// Covariance with different sigmas along and across a unit direction.
+Eigen::Matrix2d AlongAcross(const Vector2d& along, double along_sigma, double across_sigma) {
+  const Vector2d across(-along.y(), along.x());
+  return along_sigma * along_sigma * along * along.transpose() +
+         across_sigma * across_sigma * across * across.transpose();
+}
+
+Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
+  const Chord mirror = MirrorLine(edges);
+  Pivot pivot;
+  pivot.source = "geometry";
+  const double along = (scene.pivot_px - mirror.point).dot(mirror.direction);
+  pivot.point_px = mirror.point + along * mirror.direction;
+  // A blade that is not quite the other's mirror image moves the line by a few percent of the
+  // shank's width.
+  const double across_sigma = std::max(0.5, 0.05 * scene.shank_width_px);
+  pivot.covariance_px2 = AlongAcross(mirror.direction, scene.pivot_sigma_px, across_sigma);
+  return pivot;
+}
+
+std::optional<Screw> LookForScrew(const cv::Mat& grey, const ToneCurve& tone, const Scene& scene) {
+  ScrewSearch search;
+  search.guess_px = scene.pivot_px;
+  // Heads of screws and rivets are a fifth to nine tenths of the shank wide.
+  search.min_semi_axis_px = std::max(3.0, 0.10 * scene.shank_width_px);
+  search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
+  search.radius_px =
+      std::clamp(2 * scene.pivot_sigma_px, 0.25 * scene.shank_width_px, 0.6 * scene.shank_width_px);
+  return FindScrew(grey, tone, search);
+}
+
+}  // namespace
+
+double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
+  const Chord a = ProximalChord(edges.left_px);
+  const Chord b = ProximalChord(edges.right_px);
+  const double left = Cross(a.direction, pivot_px - a.point);
+  const double right = -Cross(b.direction, pivot_px - b.point);
+  const double length =
+      0.5 * ((edges.left_px.back() - pivot_px).norm() + (edges.right_px.back() - pivot_px).norm());
+  return std::abs(left - right) / std::max(1.0, length);
+}
+
+Pivot FindPivot(const cv::Mat& grey,
+                const ToneCurve& tone,
+                const Scene& scene,
+                const EdgePair& edges,
+                const std::optional<Vector2d>& hint_px) {
+  Pivot pivot;
+  if (hint_px) {
+    pivot = {*hint_px, Eigen::Matrix2d::Identity(), "hint", 0};
+  } else if (const std::optional<Screw> screw = LookForScrew(grey, tone, scene)) {
+    pivot = {screw->center_px, screw->covariance_px2, "screw", 0};
+  } else {
+    pivot = FromGeometry(scene, edges);
+  }
+  pivot.asymmetry = EdgeAsymmetry(edges, pivot.point_px);
+  return pivot;
+}
+
+}  // namespace bladecurve
