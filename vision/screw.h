@@ -13,19 +13,26 @@ namespace bladecurve {
 // The head of the screw or rivet about which the blades turn, as an ellipse.
 struct Screw {
   Eigen::Vector2d center_px;
-  Eigen::Matrix2d covariance_px2;
-  double semi_major_px = 0, semi_minor_px = 0, angle_rad = 0;
-  double support = 0;  // share of the rim that is seen, 0 to 1
+  Eigen::Matrix2d covariance_px2;  // of the centre of what is seen of the rim
+  double semi_major_px = 0, semi_minor_px = 0,
+         angle_rad = 0;  // angle of the major axis, from +x towards +y (down)
+  double support = 0;    // share of the rim that is seen, 0 to 1
+  double evidence =
+      0;  // natural logarithm of the odds against chance; at least ScrewSearch::least_evidence
 };
 
 struct ScrewSearch {
-  Eigen::Vector2d guess_px;       // where geometry puts the pivot
-  double radius_px = 0;           // how far from there the centre may lie
-  double min_semi_axis_px = 3;    // size of the head, from the width of the shank
+  Eigen::Vector2d guess_px;     // where geometry puts the pivot
+  double radius_px = 0;         // how far from there the centre may lie
+  double min_semi_axis_px = 3;  // size of the head, from the width of the shank
   double max_semi_axis_px = 0;
+  double least_evidence = 10;  // below: brushed metal, cloth and lettering reach it by chance
 };
 
-// The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with confidence.
+// The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with
+// confidence. Heads of less than 3.5 px are never accepted: specks look alike. Throws
+// std::invalid_argument for a picture that is not CV_8UC1, or sizes or a radius that are not
+// positive and finite.
 [[nodiscard]] std::optional<Screw> FindScrew(const cv::Mat& grey,
                                              const ToneCurve& tone,
                                              const ScrewSearch& search);

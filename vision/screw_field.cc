@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/screw_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+namespace bladecurve {
+namespace {
+
+constexpr double kBlurPx =
+    1.0;  // smooths noise; a seventh of the smallest rim, so its curvature survives
+constexpr float kHalfScore = 2.5F;  // a sector this many times its usual response counts one half
+// Derivatives a flat 8-bit picture has by rounding alone: no rim fainter than that is believed.
+constexpr float kLeastEdge = 0.25F;
+constexpr float kLeastLine = 0.15F;
+constexpr float kNormalMad =
+    1.4826F;                   // standard deviation over median absolute deviation, normal law
+constexpr int kUsualGrid = 8;  // (2 n + 1)^2 places tell what is usual
+
+Eigen::Vector2d SampleDirection(int sample) {
+  const double angle = 2 * std::numbers::pi * sample / RimField::kSamples;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+float SectorScore(float q_squared) { return q_squared / (q_squared + kHalfScore * kHalfScore); }
+
+float MedianOf(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The weight 1/usual^2 of a sector's summed response.
+float WeightFrom(std::vector<float>& absolute_sums, float least) {
+  const float usual = kNormalMad * MedianOf(absolute_sums);
+  const float floor = least * RimField::kSamplesPerSector;
+  return 1.F / std::max(usual * usual, floor * floor);
+}
+
+cv::Mat Derivative(const cv::Mat& image, int dx, int dy) {
+  cv::Mat result;
+  cv::Sobel(image, result, CV_32F, dx, dy, 3, 1.0 / 8.0, 0, cv::BORDER_REPLICATE);
+  return result;
+}
+
+}  // namespace
+
+ScaledWindow CutWindow(const cv::Mat& grey,
+                       const Eigen::Vector2d& center_px,
+                       double half_px,
+                       double scale) {
+  const int side = 2 * static_cast<int>(std::ceil(half_px)) + 1;
+  const cv::Rect wanted(static_cast<int>(std::lround(center_px.x())) - side / 2,
+                        static_cast<int>(std::lround(center_px.y())) - side / 2,
+                        side,
+                        side);
+  const cv::Rect inside = wanted & cv::Rect(0, 0, grey.cols, grey.rows);
+  ScaledWindow window;
+  if (inside.empty()) return window;
+  cv::Mat piece;
+  cv::copyMakeBorder(grey(inside),
+                     piece,
+                     inside.y - wanted.y,
+                     wanted.br().y - inside.br().y,
+                     inside.x - wanted.x,
+                     wanted.br().x - inside.br().x,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  piece.convertTo(window.grey, CV_32F);
+  window.scale = scale;
+  // cv::resize keeps the outer borders of the pictures together, so pixel centres shift by half a
+  // pixel of each.
+  window.origin = Eigen::Vector2d(wanted.x, wanted.y).array() + 0.5 * (scale - 1);
+  if (scale != 1) {
+    const int method = scale > 1 ? cv::INTER_AREA : cv::INTER_CUBIC;
+    cv::resize(window.grey, piece, cv::Size(), 1 / scale, 1 / scale, method);
+    window.grey = piece;
+  }
+  return window;
+}
+
+RimField::RimField(const cv::Mat& window,
+                   const Eigen::Vector2d& center,
+                   double half_range,
+                   double typical_radius)
+    : width_(window.cols), height_(window.rows) {
+  cv::Mat smooth;
+  cv::GaussianBlur(window, smooth, cv::Size(7, 7), kBlurPx, kBlurPx, cv::BORDER_REPLICATE);
+  const cv::Mat gx = Derivative(smooth, 1, 0), gy = Derivative(smooth, 0, 1);
+  const cv::Mat hxx = Derivative(gx, 1, 0), hxy = Derivative(gx, 0, 1), hyy = Derivative(gy, 0, 1);
+  derivatives_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  const auto* x = gx.ptr<float>();
+  const auto* y = gy.ptr<float>();
+  const auto *xx = hxx.ptr<float>(), *xy = hxy.ptr<float>(), *yy = hyy.ptr<float>();
+  for (std::size_t i = 0; i < derivatives_.size(); ++i) {
+    derivatives_[i] << x[i], y[i], xx[i], xy[i], yy[i], 0, 0, 0;
+  }
+  for (int direction = 0; direction < kDirections; ++direction) {
+    const Eigen::Vector2d n = SampleDirection(direction);
+    const auto index = static_cast<std::size_t>(direction);
+    edge_[index] = n.x() * gx + n.y() * gy;
+    line_[index] = n.x() * n.x() * hxx + 2 * n.x() * n.y() * hxy + n.y() * n.y() * hyy;
+  }
+  MeasureUsual(center, half_range, typical_radius);
+}
+
+void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius) {
+  edge_weight_.fill(1.F);
+  line_weight_.fill(1.F);
+  std::array<std::vector<float>, kSectors / 2> edge, line;
+  for (int row = -kUsualGrid; row <= kUsualGrid; ++row) {
+    for (int column = -kUsualGrid; column <= kUsualGrid; ++column) {
+      const Eigen::Vector2d place = center + half_range / kUsualGrid * Eigen::Vector2d(column, row);
+      for (int sector = 0; sector < kSectors; ++sector) {
+        float edge_sum = 0, line_sum = 0;
+        for (int k = 0; k < kSamplesPerSector; ++k) {
+          const int sample = sector * kSamplesPerSector + k;
+          const Eigen::Vector2d p = place + radius * SampleDirection(sample);
+          const int px = std::clamp(static_cast<int>(std::lround(p.x())), 0, width_ - 1);
+          const int py = std::clamp(static_cast<int>(std::lround(p.y())), 0, height_ - 1);
+          edge_sum += edge_[static_cast<std::size_t>(sample % kDirections)].at<float>(py, px);
+          line_sum += line_[static_cast<std::size_t>(sample % kDirections)].at<float>(py, px);
+        }
+        edge[static_cast<std::size_t>(sector % (kSectors / 2))].push_back(std::abs(edge_sum));
+        line[static_cast<std::size_t>(sector % (kSectors / 2))].push_back(std::abs(line_sum));
+      }
+    }
+  }
+  for (std::size_t sector = 0; sector < edge.size(); ++sector) {
+    edge_weight_[sector] = WeightFrom(edge[sector], kLeastEdge);
+    line_weight_[sector] = WeightFrom(line[sector], kLeastLine);
+  }
+}
+
+RimField::Derivatives RimField::DerivativesAt(const Eigen::Vector2d& point) const {
+  const float x =
+      std::clamp(static_cast<float>(point.x()), 0.F, static_cast<float>(width_) - 1.01F);
+  const float y =
+      std::clamp(static_cast<float>(point.y()), 0.F, static_cast<float>(height_) - 1.01F);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
+  const Derivatives* upper =
+      derivatives_.data() + static_cast<std::ptrdiff_t>(row) * width_ + column;
+  const Derivatives* lower = upper + width_;
+  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
+         down * ((1 - right) * lower[0] + right * lower[1]);
+}
+
+RimField::SectorResponses RimField::Responses(const RimEllipse& rim) const {
+  SectorResponses responses{};
+  const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
+  for (int sector = 0; sector < kSectors; ++sector) {
+    float edge = 0, line = 0;
+    for (int k = 0; k < kSamplesPerSector; ++k) {
+      const Eigen::Vector2d u = SampleDirection(sector * kSamplesPerSector + k);
+      const Eigen::Vector2f n = (inverse_shape * u).normalized().cast<float>();
+      const Derivatives d = DerivativesAt(rim.PointAt(u));
+      edge += n.x() * d[0] + n.y() * d[1];
+      line += n.x() * n.x() * d[2] + 2 * n.x() * n.y() * d[3] + n.y() * n.y() * d[4];
+    }
+    const auto half_sector = static_cast<std::size_t>(sector % (kSectors / 2));
+    responses[static_cast<std::size_t>(sector)] =
+        edge * edge * edge_weight_[half_sector] + line * line * line_weight_[half_sector];
+  }
+  return responses;
+}
+
+double RimField::Score(const RimEllipse& rim) const {
+  double sum = 0;
+  for (const float q_squared : Responses(rim)) sum += SectorScore(q_squared);
+  return sum / kSectors;
+}
+
+cv::Mat RimField::ScoreCircles(const cv::Rect& centers, double radius) const {
+  cv::Mat score = cv::Mat::zeros(centers.size(), CV_32F);
+  const auto width = static_cast<std::size_t>(centers.width);
+  std::vector<float> edge(width), line(width);
+  for (int row = 0; row < centers.height; ++row) {
+    float* out = score.ptr<float>(row);
+    for (int sector = 0; sector < kSectors; ++sector) {
+      std::fill(edge.begin(), edge.end(), 0.F);
+      std::fill(line.begin(), line.end(), 0.F);
+      for (int k = 0; k < kSamplesPerSector; ++k) {
+        const int sample = sector * kSamplesPerSector + k;
+        const Eigen::Vector2d offset = radius * SampleDirection(sample);
+        const int y = centers.y + row + static_cast<int>(std::lround(offset.y()));
+        const int x = centers.x + static_cast<int>(std::lround(offset.x()));
+        const float* edge_row =
+            edge_[static_cast<std::size_t>(sample % kDirections)].ptr<float>(y) + x;
+        const float* line_row =
+            line_[static_cast<std::size_t>(sample % kDirections)].ptr<float>(y) + x;
+        for (std::size_t i = 0; i < width; ++i) edge[i] += edge_row[i];
+        for (std::size_t i = 0; i < width; ++i) line[i] += line_row[i];
+      }
+      const auto half_sector = static_cast<std::size_t>(sector % (kSectors / 2));
+      const float we = edge_weight_[half_sector], wl = line_weight_[half_sector];
+      for (std::size_t i = 0; i < width; ++i) {
+        out[i] += SectorScore(edge[i] * edge[i] * we + line[i] * line[i] * wl) / kSectors;
+      }
+    }
+  }
+  return score;
+}
+
+}  // namespace bladecurve

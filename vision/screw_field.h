@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/screw_ellipse.h"
+
+namespace bladecurve {
+
+// A square piece of a picture at another scale: picture = origin + scale * pixel. Beyond the
+// picture its border repeats.
+struct ScaledWindow {
+  cv::Mat grey;  // CV_32F, encoded grey values
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  double scale = 1;
+};
+[[nodiscard]] ScaledWindow CutWindow(const cv::Mat& grey,
+                                     const Eigen::Vector2d& center_px,
+                                     double half_px,
+                                     double scale);
+
+// How strongly the rim of an ellipse would show in a window: first and second derivatives along its
+// normals, summed over sectors and divided by what is usual in that direction around here. So a
+// brushed or woven ground, which has strong derivatives across its grain everywhere, earns nothing
+// by them.
+class RimField {
+ public:
+  static constexpr int kSectors = 16;
+  static constexpr int kSamplesPerSector = 2;
+  static constexpr int kSamples = kSectors * kSamplesPerSector;
+  using SectorResponses = std::array<float, kSectors>;
+
+  // What is usual is taken from circles of typical_radius centred within half_range of `center`;
+  // all in window pixels.
+  RimField(const cv::Mat& window,
+           const Eigen::Vector2d& center,
+           double half_range,
+           double typical_radius);
+
+  // Squared response over its usual size, first and second derivative together, sector by sector.
+  [[nodiscard]] SectorResponses Responses(const RimEllipse& rim) const;
+  // 0 to 1: mean over the sectors of q^2 / (q^2 + k^2). One strong sector, a shank's edge say,
+  // counts no more than 1/16.
+  [[nodiscard]] double Score(const RimEllipse& rim) const;
+  // The same for circles centred on the pixels of `centers`, as CV_32F; whole-pixel accuracy.
+  [[nodiscard]] cv::Mat ScoreCircles(const cv::Rect& centers, double radius) const;
+
+ private:
+  static constexpr int kDirections = kSamples / 2;  // opposite samples share theirs
+  using Derivatives = Eigen::Array<float, 8, 1>;    // g_x, g_y, h_xx, h_xy, h_yy, three times 0
+
+  void MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius);
+  [[nodiscard]] Derivatives DerivativesAt(const Eigen::Vector2d& point) const;
+
+  int width_ = 0, height_ = 0;
+  std::vector<Derivatives> derivatives_;
+  std::array<cv::Mat, kDirections> edge_, line_;  // derivatives along the directions of the samples
+  std::array<float, kSectors / 2> edge_weight_{},
+      line_weight_{};  // 1 / usual squared sum over a sector
+};
+
+}  // namespace bladecurve

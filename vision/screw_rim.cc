@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/screw_rim.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace bladecurve {
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Vector5d = Eigen::Matrix<double, 5, 1>;
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+
+constexpr int kFewestProfiles = 24,
+              kMostProfiles = 96;           // about one per px of rim; more only cost time
+constexpr double kTapPx = 0.5;              // spacing along a profile
+constexpr double kShrink = 0.8;             // of the profiles from one iteration to the next
+constexpr double kMostRelativeShift = 0.6;  // of half a profile: a larger one is an extrapolation
+constexpr double kTukeySigmas = 3.0;        // beyond: something else than the rim
+constexpr double kLeastScatterPx = 0.02;    // keeps the biweight open on perfect pictures
+constexpr double kLeastCorrelation = 0.2;   // profiles less alike the common one have no weight
+constexpr double kRimCorrelation = 0.6;     // profiles more alike count as rim seen
+constexpr double kRimRelativeWidth =
+    0.06;  // of the radius: how near to the ellipse a rim point must be
+constexpr double kRimLeastWidthPx = 0.5;
+constexpr double kSmoothingTurns =
+    1.0 / 64;                // Gaussian sigma along the rim before profiles are judged
+constexpr int kBlocks = 16;  // of the rim, taken as independent in the covariance
+constexpr double kConvergedPx = 0.003;
+constexpr int kReweightings = 5;
+constexpr double kNormalMad =
+    1.4826;  // standard deviation over median absolute deviation, normal law
+constexpr double kLeastOfStart = 0.5,
+                 kMostOfStart = 1.6;  // semi-axes over the radius begun with: else it ran away
+// Weight of "no change", in profiles: keeps the equations solvable where hardly any rim is seen.
+const Vector5d kDamping(1e-6, 1e-6, 1e-2, 1e-2, 1e-2);
+
+struct Profiles {
+  Rows values;                     // one profile a row
+  Eigen::VectorXd t;               // px along the normal, outwards
+  Eigen::VectorXd window;          // weights of the taps
+  std::vector<Eigen::Vector2d> u;  // of each profile: rim.PointAt(u)
+  std::vector<Vector5d>
+      jacobian;  // d(displacement along the normal)/d(center x, y, shape xx, xy, yy)
+};
+
+double Bilinear(const cv::Mat& picture, double x, double y) {
+  x = std::clamp(x, 0.0, picture.cols - 1.001);
+  y = std::clamp(y, 0.0, picture.rows - 1.001);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const double right = x - column, down = y - row;
+  const float* upper = picture.ptr<float>(row) + column;
+  const float* lower = picture.ptr<float>(row + 1) + column;
+  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
+         down * ((1 - right) * lower[0] + right * lower[1]);
+}
+
+Profiles SampleProfiles(const cv::Mat& picture, const RimEllipse& rim, double half_px) {
+  const double perimeter = 2 * std::numbers::pi * rim.MeanRadius();
+  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, kMostProfiles);
+  const int half_taps = static_cast<int>(std::ceil(half_px / kTapPx));
+  const int taps = 2 * half_taps + 1;
+  Profiles profiles;
+  profiles.values.resize(count, taps);
+  profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
+  profiles.window = (-1.6 * (profiles.t.array() / half_px).square()).exp();  // 0.2 at the ends
+  const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const Eigen::Vector2d u(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d n = (inverse_shape * u).normalized(), p = rim.PointAt(u);
+    for (int k = 0; k < taps; ++k) {
+      const Eigen::Vector2d q = p + profiles.t[k] * n;
+      profiles.values(i, k) = Bilinear(picture, q.x(), q.y());
+    }
+    profiles.u.push_back(u);
+    Vector5d row;
+    row << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(), n.y() * u.y();
+    profiles.jacobian.push_back(row);
+  }
+  return profiles;
+}
+
+// Takes mean and slope out of every profile: shading says nothing about the place of the rim.
+Rows WithoutTrend(const Profiles& profiles) {
+  const Eigen::VectorXd& w = profiles.window;
+  const Eigen::VectorXd wt =
+      w.cwiseProduct(profiles.t);  // the window is even: constant and slope are orthogonal
+  const Eigen::VectorXd mean = profiles.values * w / w.sum();
+  const Eigen::VectorXd slope = profiles.values * wt / wt.dot(profiles.t);
+  return profiles.values - mean * Eigen::RowVectorXd::Ones(w.size()) -
+         slope * profiles.t.transpose();
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct CommonShape {
+  Eigen::VectorXd value, derivative;  // over the taps; weighted norm of `value` is 1
+  double center_px = 0;               // where along the profile its structure lies
+};
+
+// The dominant principal component of the profiles, each scaled so that a glint has no more say
+// than others.
+std::optional<CommonShape> FindCommonShape(const Profiles& profiles, const Rows& detrended) {
+  const Eigen::VectorXd root_window = profiles.window.cwiseSqrt();
+  const Eigen::VectorXd norms = (detrended * root_window.asDiagonal()).rowwise().norm();
+  const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
+  const Rows scaled = (norms.array() + typical).inverse().matrix().asDiagonal() * detrended *
+                      root_window.asDiagonal();
+  const Eigen::MatrixXd covariance = scaled.transpose() * scaled;
+  Eigen::VectorXd component = scaled.colwise().mean().transpose();
+  for (int round = 0; round < 4 && component.norm() > 1e-12; ++round) {
+    component = covariance * component.normalized();
+  }
+  if (!(component.norm() > 1e-12)) return std::nullopt;
+  CommonShape shape;
+  shape.value = component.normalized().cwiseQuotient(root_window);
+  const Eigen::Index last = shape.value.size() - 1;
+  shape.derivative.resize(last + 1);
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, last);
+    shape.derivative[k] = (shape.value[after] - shape.value[before]) / (kTapPx * (after - before));
+  }
+  const Eigen::VectorXd energy = profiles.window.cwiseProduct(shape.derivative.cwiseAbs2());
+  shape.center_px = energy.dot(profiles.t) / energy.sum();
+  return shape;
+}
+
+struct Match {
+  double shift_px = 0;     // of the rim from the ellipse, along the normal
+  double amplitude = 0;    // of the common shape; negative where light and dark are exchanged
+  double correlation = 0;  // with the common shape, after smoothing along the rim
+};
+
+// Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
+std::vector<Match> MatchProfiles(const Profiles& profiles,
+                                 const Rows& detrended,
+                                 const CommonShape& shape) {
+  const auto count = static_cast<int>(detrended.rows());
+  const Eigen::Index taps = detrended.cols();
+  Eigen::MatrixXd basis(taps, 4);
+  basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
+  const Eigen::MatrixXd weighted = profiles.window.asDiagonal() * basis;
+  const Eigen::Matrix4d normal = basis.transpose() * weighted;
+  const Rows solution = detrended * weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity());
+  const Eigen::VectorXd norm_squared = detrended.cwiseAbs2() * profiles.window;
+
+  const double sigma = std::max(0.7, kSmoothingTurns * count);
+  const int reach = static_cast<int>(std::ceil(2.5 * sigma));
+  const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
+  std::vector<Match> matches(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    Eigen::RowVectorXd smooth = detrended.row(i);
+    double sum = 1;
+    for (int k = 1; k <= reach; ++k) {
+      const double g = std::exp(-0.5 * k * k / (sigma * sigma));
+      smooth += g * (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
+      sum += 2 * g;
+    }
+    Match& match = matches[static_cast<std::size_t>(i)];
+    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * sum;
+    match.correlation = smooth.dot(profiles.window.cwiseProduct(shape.value)) / norm;
+    match.amplitude = solution(i, 2);
+    const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
+    match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
+  }
+  return matches;
+}
+
+// A robust fit of a small change of the ellipse to the shifts.
+struct Update {
+  Vector5d change = Vector5d::Zero();  // of center x, y, shape xx, xy, yy
+  std::vector<double> residual_px, weight;
+  Eigen::Matrix2d center_covariance = Eigen::Matrix2d::Identity();
+};
+
+// What a profile may say at most: little where it looks unlike the rim or is faint.
+double PriorWeight(const Match& match, double typical_amplitude) {
+  const double likeness = std::max(0.0, match.correlation - kLeastCorrelation);
+  const double strength = match.amplitude / typical_amplitude;
+  return likeness * std::min(1.0, strength * strength);
+}
+
+double Biweight(double z) { return std::abs(z) < 1 ? (1 - z * z) * (1 - z * z) : 0; }
+
+// Residuals near each other on the rim are correlated (a glint, the grain of the ground), so the
+// scatter is taken from the scores of whole blocks: A^-1 (sum_b g_b g_b^T) A^-1 B/(B - 5), g_b =
+// sum over the block of w J r.
+Eigen::Matrix2d CenterCovariance(const Profiles& profiles,
+                                 const Update& update,
+                                 const Matrix5d& normal) {
+  const std::size_t count = update.weight.size();
+  Matrix5d scatter = Matrix5d::Zero();
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    Vector5d score = Vector5d::Zero();
+    for (std::size_t i = block * count / kBlocks; i < (block + 1) * count / kBlocks; ++i) {
+      score += update.weight[i] * update.residual_px[i] * profiles.jacobian[i];
+    }
+    scatter += score * score.transpose();
+  }
+  const Matrix5d inverse = normal.ldlt().solve(Matrix5d::Identity());
+  const double few_blocks = kBlocks / (kBlocks - 5.0);
+  return few_blocks * (inverse * scatter * inverse).topLeftCorner<2, 2>();
+}
+
+Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
+  const std::size_t count = matches.size();
+  std::vector<double> amplitudes(count), residuals(count);
+  for (std::size_t i = 0; i < count; ++i) amplitudes[i] = std::abs(matches[i].amplitude);
+  const double typical = Median(amplitudes) + 1e-12;
+  Update update;
+  update.residual_px.resize(count);
+  update.weight.resize(count);
+  Matrix5d normal;
+  double scatter_px = profiles.t[profiles.t.size() - 1] / 2;
+  for (int round = 0; round < kReweightings; ++round) {
+    normal = kDamping.asDiagonal();
+    Vector5d right = Vector5d::Zero();
+    for (std::size_t i = 0; i < count; ++i) {
+      const double residual = matches[i].shift_px - profiles.jacobian[i].dot(update.change);
+      update.weight[i] =
+          PriorWeight(matches[i], typical) * Biweight(residual / (kTukeySigmas * scatter_px));
+      normal += update.weight[i] * profiles.jacobian[i] * profiles.jacobian[i].transpose();
+      right += update.weight[i] * matches[i].shift_px * profiles.jacobian[i];
+    }
+    update.change = normal.ldlt().solve(right);
+    for (std::size_t i = 0; i < count; ++i) {
+      update.residual_px[i] = matches[i].shift_px - profiles.jacobian[i].dot(update.change);
+      residuals[i] = std::abs(update.residual_px[i]);
+    }
+    scatter_px = std::clamp(kNormalMad * Median(residuals), kLeastScatterPx, scatter_px);
+  }
+  update.center_covariance = CenterCovariance(profiles, update, normal);
+  return update;
+}
+
+double Support(const std::vector<Match>& matches, const Update& update, double radius) {
+  const double width = std::max(kRimRelativeWidth * radius, kRimLeastWidthPx);
+  int seen = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (matches[i].correlation > kRimCorrelation && std::abs(update.residual_px[i]) < width) ++seen;
+  }
+  return static_cast<double>(seen) / static_cast<double>(matches.size());
+}
+
+RimEllipse Changed(const RimEllipse& rim, const Vector5d& change) {
+  RimEllipse result = rim;
+  result.center += change.head<2>();
+  result.shape(0, 0) += change[2];
+  result.shape(0, 1) += change[3];
+  result.shape(1, 0) += change[3];
+  result.shape(1, 1) += change[4];
+  return result;
+}
+
+}  // namespace
+
+std::optional<RimFit> FitRim(const cv::Mat& picture,
+                             const RimEllipse& start,
+                             const RimFitOptions& options) {
+  const double start_radius = start.MeanRadius();
+  RimFit fit{start, Eigen::Matrix2d::Identity(), 0};
+  double half_px = options.first_half_px;
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
+    const Profiles profiles = SampleProfiles(picture, fit.rim, half_px);
+    const Rows detrended = WithoutTrend(profiles);
+    const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
+    if (!shape) return std::nullopt;
+    const std::vector<Match> matches = MatchProfiles(profiles, detrended, *shape);
+    Update update = FitShifts(profiles, matches);
+    const double most_change = half_px / 2;  // what lies further off has not been seen
+    const double change = update.change.head<2>().norm();
+    if (change > most_change) update.change *= most_change / change;
+    fit.rim = Changed(fit.rim, update.change);
+    const Eigen::Vector2d axes = fit.rim.SemiAxes();
+    if (!(axes[0] > kLeastOfStart * start_radius && axes[1] < kMostOfStart * start_radius)) {
+      return std::nullopt;
+    }
+    fit.center_covariance = update.center_covariance;
+    fit.support = Support(matches, update, start_radius);
+    const bool narrow = half_px <= options.last_half_px;
+    if (narrow && update.change.norm() < kConvergedPx) break;
+    half_px = std::max(options.last_half_px, kShrink * half_px);
+  }
+  return fit;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "vision/screw_ellipse.h"
+
+namespace bladecurve {
+
+struct RimFitOptions {
+  double first_half_px = 3;  // of the profiles across the rim: how far off the start may be
+  double last_half_px = 2;   // narrower in the end, so that slot and ground disturb less
+  int iterations = 6;
+};
+
+struct RimFit {
+  RimEllipse rim;
+  Eigen::Matrix2d center_covariance;  // px^2; from the scatter of the rim's points, in blocks that
+                                      // may be correlated
+  double support =
+      0;  // share of the rim whose profile looks like the common one, at the fitted place
+};
+
+// Fits an ellipse to the rim near `start` in a CV_32F picture. What the rim looks like across (a
+// step, a groove, a bright line, with what blur) is not assumed but learnt from the picture: it is
+// what the profiles all round have in common. Each profile is shifted against that common shape
+// (Gauss-Newton), and the ellipse is fitted to the shifts (Tukey's biweight). std::nullopt where
+// that does not lead to an ellipse near the start.
+[[nodiscard]] std::optional<RimFit> FitRim(const cv::Mat& picture,
+                                           const RimEllipse& start,
+                                           const RimFitOptions& options = {});
+
+}  // namespace bladecurve
