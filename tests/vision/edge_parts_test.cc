@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// The pieces an edge is located with: the blurred step, the smoother, the band of raw pixels.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "vision/blurred_step.h"
+#include "vision/edge_band.h"
+#include "vision/edge_images.h"
+#include "vision/edge_path.h"
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+using testing::Gaussian;
+
+constexpr double kTableError = 3e-5;  // flanks of the trapezoid widened to 0.02 px
+
+Vector2d Direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+TEST(BlurredStep, EqualsTheBlurredHalfPlaneAveragedOverThePixel) {
+  Gaussian random(1);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector2d normal = Direction(2 * std::numbers::pi * random.Uniform());
+    const double blur = 0.3 + 2 * random.Uniform(), across = 6 * (random.Uniform() - 0.5);
+    const cv::Mat pixel = testing::HalfPlaneCoverage({1, 1}, normal, -across, blur);
+    EXPECT_NEAR(BlurredStep(normal, blur).At(across).step, pixel.at<double>(0, 0), kTableError)
+        << "normal " << normal.transpose() << " blur " << blur << " across " << across;
+  }
+}
+
+TEST(BlurredStep, DerivativesEqualCentralDifferences) {
+  constexpr double kStep = 1e-4, kTolerance = 1e-5;
+  Gaussian random(2);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vector2d normal = Direction(2 * std::numbers::pi * random.Uniform());
+    const double blur = 0.4 + 2 * random.Uniform(), across = 5 * (random.Uniform() - 0.5);
+    const StepSample sample = BlurredStep(normal, blur).At(across);
+    const BlurredStep step(normal, blur), sharper(normal, blur - kStep),
+        softer(normal, blur + kStep);
+    EXPECT_NEAR(sample.slope,
+                (step.At(across + kStep).step - step.At(across - kStep).step) / (2 * kStep),
+                kTolerance);
+    EXPECT_NEAR(sample.spread,
+                (softer.At(across).step - sharper.At(across).step) / (2 * kStep),
+                kTolerance);
+  }
+}
+
+TEST(SmoothValues, SolvesItsNormalEquations) {
+  constexpr int kCount = 30;
+  constexpr double kStiffness = 3.7, kTolerance = 1e-10;
+  Gaussian random(3);
+  std::vector<double> values, weights;
+  for (int i = 0; i < kCount; ++i) {
+    values.push_back(random());
+    weights.push_back(i % 7 == 3 ? 0 : random.Uniform());
+  }
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kCount, kCount);
+  Eigen::VectorXd right(kCount);
+  for (int i = 0; i < kCount; ++i) {
+    normal(i, i) += weights[static_cast<size_t>(i)];
+    right[i] = weights[static_cast<size_t>(i)] * values[static_cast<size_t>(i)];
+  }
+  for (int i = 1; i + 1 < kCount; ++i) {
+    Eigen::VectorXd bend = Eigen::VectorXd::Zero(kCount);
+    bend.segment(i - 1, 3) << 1, -2, 1;
+    normal += kStiffness * bend * bend.transpose();
+  }
+  const Eigen::VectorXd expected = normal.fullPivLu().solve(right);
+  const std::vector<double> smooth = SmoothValues(values, weights, kStiffness);
+  for (int i = 0; i < kCount; ++i)
+    EXPECT_NEAR(smooth[static_cast<size_t>(i)], expected[i], kTolerance);
+}
+
+TEST(SmoothPath, NormalsPointOutOfTheBladeAndCurvatureIsPositiveForAConvexOne) {
+  constexpr double kRadius = 80;
+  std::vector<Vector2d> arc;
+  for (int i = 0; i <= 60; ++i) arc.push_back(Vector2d(100, 100) + kRadius * Direction(0.02 * i));
+  // Walking with growing angle, y down, the centre lies on the right.
+  const EdgePath path = SmoothPath(arc, false, 1);
+  for (int i = 10; i + 10 < path.size(); ++i) {
+    const Vector2d outwards =
+        (path.points[static_cast<size_t>(i)] - Vector2d(100, 100)).normalized();
+    EXPECT_GT(path.normals[static_cast<size_t>(i)].dot(outwards), 0.999);
+    EXPECT_NEAR(path.curvatures[static_cast<size_t>(i)] * kRadius, 1, 0.02);
+  }
+}
+
+TEST(SmoothPath, RefusesAPointWithoutLength) {
+  EXPECT_THROW((void)SmoothPath({Vector2d(3, 3), Vector2d(3, 3)}, true, 1), Refused);
+}
+
+// Two thirds of a circle pass through every direction, so scanning lines change from columns to
+// rows and back.
+TEST(GatherPixels, FindsEachPixelBesideAnArcOnceAndAtItsDistance) {
+  constexpr double kRadius = 40, kReach = 5, kDistanceTolerance = 5e-3, kSpan = 4;
+  const Vector2d center(60.3, 59.6);
+  std::vector<Vector2d> arc;
+  for (int i = 0; i <= 400; ++i) arc.push_back(center + kRadius * Direction(kSpan * i / 400));
+  const EdgePath path = SmoothPath(arc, false, 0);
+  cv::Mat grey(121, 121, CV_8U);
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x)
+      grey.at<uchar>(y, x) = static_cast<uchar>((7 * x + 13 * y) % 251);
+  }
+  const std::vector<double> reach(path.points.size(), kReach);
+  const PixelBand band = GatherPixels(grey, testing::GammaCurve(1), path, {reach, reach});
+
+  // Well inside the band and the span each pixel must be there; the multiset of their values tells
+  // which.
+  std::multiset<int> expected;
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x) {
+      const Vector2d from_center = Vector2d(x, y) - center;
+      double angle = std::atan2(from_center.y(), from_center.x());
+      if (angle < -0.5) angle += 2 * std::numbers::pi;
+      const double along = kRadius * angle;
+      if (std::abs(from_center.norm() - kRadius) <= kReach && along >= -0.5 &&
+          along <= kRadius * kSpan + 0.5) {
+        expected.insert(grey.at<uchar>(y, x));
+      }
+    }
+  }
+  std::multiset<int> found;
+  for (const BandPixel& pixel : band.pixels)
+    found.insert(static_cast<int>(std::lround(255 * pixel.light)));
+  constexpr int kAtTheRim = 16;  // pixels within rounding of the band's border
+  std::vector<int> missing;
+  std::set_difference(
+      expected.begin(), expected.end(), found.begin(), found.end(), std::back_inserter(missing));
+  EXPECT_LT(static_cast<int>(missing.size()), kAtTheRim);
+  EXPECT_NEAR(static_cast<double>(found.size()), static_cast<double>(expected.size()), kAtTheRim);
+
+  double sum = 0;
+  for (const BandPixel& pixel : band.pixels) sum += pixel.across;
+  // Mean distance of the pixels of a ring is (reach^2 / 3) / radius.
+  EXPECT_NEAR(sum / static_cast<double>(band.pixels.size()),
+              kReach * kReach / 3 / kRadius,
+              10 * kDistanceTolerance);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,271 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "vision/edge_bound.h"
+#include "vision/edge_images.h"
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+using testing::EdgeLook;
+using testing::Gaussian;
+
+constexpr int kSide = 240;
+constexpr double kLength = 180;
+
+Vector2d Direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
+
+// A straight edge through the middle of a picture; background is where normal . p > offset.
+struct Line {
+  Vector2d normal;
+  double offset = 0;
+
+  [[nodiscard]] double Distance(const Vector2d& p) const { return normal.dot(p) - offset; }
+};
+
+Line RandomLine(Gaussian& random) {
+  const Vector2d normal = Direction(2 * std::numbers::pi * random.Uniform());
+  return {normal, normal.dot(Vector2d(kSide / 2, kSide / 2)) + random.Uniform() - 0.5};
+}
+
+// A guess that is off by `start_px` and `end_px` at its ends.
+EdgeGuess GuessOf(const Line& line, double start_px, double end_px) {
+  const Vector2d along(-line.normal.y(), line.normal.x());
+  const Vector2d middle =
+      line.normal * line.offset + along * along.dot(Vector2d(kSide / 2, kSide / 2));
+  EdgeGuess guess;
+  guess.path_px = {middle - along * kLength / 2 + line.normal * start_px,
+                   middle + along * kLength / 2 + line.normal * end_px};
+  guess.blade_on_left = false;  // left of (-ny, nx) is (nx, ny): background
+  return guess;
+}
+
+struct Offset {
+  double mean = 0, sigma = 0;
+};
+
+Offset MeanOffset(const LocatedEdge& edge, const Line& line) {
+  double sum = 0, variance = 0, count = 0;
+  for (const LocatedEdgePoint& point : edge.points) {
+    if (!point.inlier) continue;
+    sum += line.Distance(point.point_px);
+    variance += point.sigma_px * point.sigma_px;
+    ++count;
+  }
+  return {sum / count, std::sqrt(variance * edge.correlation_px) / count};
+}
+
+TEST(LocateEdge, StraightEdgesOfAnyDirectionHaveNoBiasAndAnHonestSigma) {
+  constexpr int kTrials = 60;
+  Gaussian random(11);
+  const EdgeLook look{0.9, 60, 180, 2, 1};
+  double sum = 0, squares = 0, normalized = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat grey = testing::Photographed(
+        testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
+        look,
+        random);
+    const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 2.5, -2));
+    const Offset offset = MeanOffset(edge, line);
+    sum += offset.mean;
+    squares += offset.mean * offset.mean;
+    normalized += std::pow(offset.mean / offset.sigma, 2);
+  }
+  const double bound = testing::OffsetBound(
+      {kLength, look.blur_px, 120, std::hypot(2, std::sqrt(1.0 / 12)), 0.4, 5});
+  const double rms = std::sqrt(squares / kTrials);
+  // rms of 60 draws scatters by 9 %; bias by rms / sqrt(60).
+  EXPECT_LT(rms, 1.25 * bound) << "bound " << bound;
+  EXPECT_LT(std::abs(sum / kTrials), std::max(0.001, 3.5 * rms / std::sqrt(kTrials)));
+  EXPECT_GT(normalized / kTrials, 0.5);
+  EXPECT_LT(normalized / kTrials, 1.6);
+}
+
+TEST(LocateEdge, CurvedEdgesAreFreeOfTheBlursBias) {
+  constexpr double kBias = 0.005;
+  Gaussian random(12);
+  for (const double radius : {30.0, 100.0}) {
+    for (const double blur : {0.6, 1.0, 2.0}) {
+      const int side = static_cast<int>(2 * radius) + 40;
+      const Vector2d center(side / 2 + random.Uniform(), side / 2 + random.Uniform());
+      const cv::Mat grey =
+          testing::Photographed(testing::DiskCoverage({side, side}, center, radius, blur),
+                                {blur, 60, 210, 0.4, 1},
+                                random);
+      EdgeGuess guess;
+      for (int i = 0; i <= 100; ++i)
+        guess.path_px.push_back(center + (radius + 1) * Direction(0.7 + 0.045 * i));
+      guess.blade_on_left = false;
+      const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), guess);
+      double sum = 0, count = 0;
+      for (size_t i = 8; i + 8 < edge.points.size(); ++i, ++count)
+        sum += (edge.points[i].point_px - center).norm() - radius;
+      EXPECT_NEAR(sum / count, 0, kBias) << "radius " << radius << " blur " << blur;
+      EXPECT_NEAR(edge.blur_px, blur, 0.03);
+    }
+  }
+}
+
+TEST(LocateEdge, ReversingThePathChangesNothing) {
+  Gaussian random(13);
+  const Line line = RandomLine(random);
+  const cv::Mat grey = testing::Photographed(
+      testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, 0.8),
+      {0.8, 200, 60, 2, 1},
+      random);
+  EdgeGuess guess = GuessOf(line, 1.5, 1.5);
+  const Offset there = MeanOffset(LocateEdge(grey, testing::GammaCurve(1), guess), line);
+  std::reverse(guess.path_px.begin(), guess.path_px.end());
+  guess.blade_on_left = true;
+  const Offset back = MeanOffset(LocateEdge(grey, testing::GammaCurve(1), guess), line);
+  EXPECT_NEAR(there.mean, back.mean, 0.2 * there.sigma);
+}
+
+TEST(LocateEdge, EncodedPicturesNeedTheirToneCurve) {
+  constexpr double kKnown = 0.01;
+  Gaussian random(14);
+  const Line line = RandomLine(random);
+  const EdgeLook look{1.0, 20, 200, 1, 2.2};
+  const cv::Mat grey = testing::Photographed(
+      testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
+      look,
+      random);
+  const Offset known =
+      MeanOffset(LocateEdge(grey, testing::GammaCurve(2.2), GuessOf(line, 1, -1)), line);
+  EXPECT_LT(std::abs(known.mean), kKnown);
+  const LocatedEdge assumed = LocateEdge(grey, SrgbToneCurve(), GuessOf(line, 1, -1));
+  EXPECT_LT(std::abs(MeanOffset(assumed, line).mean), 0.03);
+  EXPECT_GT(assumed.common_sigma_px, 0.3 * std::abs(MeanOffset(assumed, line).mean));
+  EXPECT_GT(
+      std::abs(
+          MeanOffset(LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 1, -1)), line).mean),
+      0.2);
+}
+
+// Light as a function of the distance from the blade's border.
+template <typename Function>
+cv::Mat Banded(const Line& line, const Function& light) {
+  cv::Mat picture(kSide, kSide, CV_64F);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) picture.at<double>(y, x) = light(line.Distance(Vector2d(x, y)));
+  }
+  return picture;
+}
+
+double Smooth(double d, double blur) { return 0.5 * std::erfc(-d / blur / std::numbers::sqrt2); }
+
+// Blur and pixel box together, as a Gaussian of the same variance: good to 0.003 px, which is all
+// these ask.
+double Edge(double d) { return Smooth(d, std::hypot(0.7, std::sqrt(1.0 / 12))); }
+
+TEST(LocateEdge, TheBordersOfASoftShadowIsNotTheBlades) {
+  Gaussian random(15);
+  for (int trial = 0; trial < 8; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light =
+        Banded(line, [](double d) { return 90 + Edge(d) * (-40 + 140 * Smooth(d - 7, 2.5)); });
+    const LocatedEdge edge = LocateEdge(
+        testing::Stored(light, 1.5, 1, random), testing::GammaCurve(1), GuessOf(line, 2, 4));
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, 0.05);
+  }
+}
+
+TEST(LocateEdge, ADarkBevelLineBelongsToTheBlade) {
+  Gaussian random(16);
+  for (int trial = 0; trial < 8; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light =
+        Banded(line, [](double d) { return 190 - 150 * Edge(d + 3) + 80 * Edge(d); });
+    const LocatedEdge edge = LocateEdge(
+        testing::Stored(light, 1.5, 1, random), testing::GammaCurve(1), GuessOf(line, -3, 1));
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, 0.1);
+  }
+}
+
+TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
+  Gaussian random(17);
+  const Line line = RandomLine(random);
+  cv::Mat light = Banded(line, [](double d) { return 70 + 90 * Edge(d); });
+  const Vector2d along(-line.normal.y(), line.normal.x());
+  const Vector2d middle =
+      line.normal * line.offset + along * along.dot(Vector2d(kSide / 2, kSide / 2));
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      if ((Vector2d(x, y) - middle).norm() < 5) light.at<double>(y, x) = 250;
+    }
+  }
+  const LocatedEdge edge =
+      LocateEdge(testing::Stored(light, 1, 1, random), testing::GammaCurve(1), GuessOf(line, 1, 1));
+  EXPECT_NEAR(MeanOffset(edge, line).mean, 0, 0.03);
+  EXPECT_TRUE(std::any_of(
+      edge.points.begin(), edge.points.end(), [](const LocatedEdgePoint& p) { return !p.inlier; }));
+}
+
+Reason RefusalOf(const cv::Mat& grey, const EdgeGuess& guess) {
+  try {
+    (void)LocateEdge(grey, testing::GammaCurve(1), guess);
+  } catch (const Refused& refused) {
+    return refused.reason();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return Reason::kUnreadable;
+}
+
+TEST(LocateEdge, RefusesWhatHasNoEdge) {
+  Gaussian random(18);
+  const Line line = RandomLine(random);
+  const cv::Mat blank(kSide, kSide, CV_64F, cv::Scalar(120));
+  EXPECT_EQ(RefusalOf(testing::Stored(blank, 0, 1, random), GuessOf(line, 0, 0)),
+            Reason::kLowContrast);
+  EXPECT_EQ(RefusalOf(testing::Stored(blank, 3, 1, random), GuessOf(line, 0, 0)),
+            Reason::kLowContrast);
+  const cv::Mat blurred = Banded(line, [](double d) { return 60 + 120 * Smooth(d, 12); });
+  const Reason reason = RefusalOf(testing::Stored(blurred, 1, 1, random), GuessOf(line, 0, 0));
+  EXPECT_TRUE(reason == Reason::kBlurred || reason == Reason::kLowContrast);
+}
+
+TEST(LocateEdge, RefusesWhatIsTooShort) {
+  const cv::Mat grey(kSide, kSide, CV_8U, cv::Scalar(120));
+  EdgeGuess guess;
+  guess.path_px = {Vector2d(50, 50), Vector2d(56, 50)};
+  EXPECT_EQ(RefusalOf(grey, guess), Reason::kEdgeTooShort);
+}
+
+TEST(LocateEdge, NamesImpossibleArguments) {
+  const cv::Mat grey(kSide, kSide, CV_8U, cv::Scalar(120));
+  EdgeGuess guess;
+  guess.path_px = {Vector2d(50, 50), Vector2d(150, 50)};
+  EXPECT_THROW((void)LocateEdge(cv::Mat(), SrgbToneCurve(), guess), std::invalid_argument);
+  EXPECT_THROW((void)LocateEdge(grey, SrgbToneCurve(), {}), std::invalid_argument);
+  guess.search_px = -1;
+  EXPECT_THROW((void)LocateEdge(grey, SrgbToneCurve(), guess), std::invalid_argument);
+}
+
+TEST(LocateEdge, APathThatLeavesThePictureIsNoCrash) {
+  Gaussian random(19);
+  const Line line{Vector2d(0, 1), 100.3};
+  const cv::Mat grey = testing::Photographed(
+      testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, 0.8),
+      {0.8, 60, 180, 2, 1},
+      random);
+  EdgeGuess guess;
+  guess.path_px = {Vector2d(-60, 101), Vector2d(kSide + 60, 99)};
+  guess.blade_on_left = true;
+  const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), guess);
+  EXPECT_NEAR(MeanOffset(edge, line).mean, 0, 0.03);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/edge_path.h"
+#include "vision/tone_curve.h"
+
+namespace bladecurve {
+
+// How an edge is fitted once its transition is known to a pixel or so.
+struct EdgeFitOptions {
+  // How far there is no other transition on either side, along the edge from start to end (evenly
+  // spaced).
+  std::vector<double> inner_px = {kFree}, outer_px = {kFree};
+  static constexpr double kFree = 1e3;
+  double blur_px = 0.9;  // of a usual photograph; the search for the blur starts here
+  bool correct_curvature = true;
+  bool model_slopes = true;
+};
+
+// What the pixels nearest to one sample of the path say, levels and blur being known from many.
+struct EdgeSlice {
+  double offset_px = 0;  // of the edge from the path, positive out of the blade
+  double sigma_px = 0;   // from the pixels' noise, the levels paid for
+  double contrast = 0;   // background minus blade
+  double misfit = 0;     // chi-square per pixel; 1 where the model holds
+};
+
+struct EdgeFit {
+  EdgePath path;                  // within a fraction of a pixel of the edge
+  std::vector<EdgeSlice> slices;  // one per sample; sigma infinite where there are no pixels
+  std::vector<double> trend_px;   // offset of the edge from the path, averaged over many slices
+  double blur_px = 0;
+  double noise_blade = 0, noise_ground = 0;  // of a pixel, texture included, linear light
+};
+
+// Maximum likelihood of the model of edge_levels.h on the raw pixels beside `start`, which lies
+// within about 1.5 px of the edge. Blur is shared along the edge; levels and offset are local to
+// windows of about 50 px.
+[[nodiscard]] EdgeFit FitEdge(const cv::Mat& grey,
+                              const ToneCurve& tone,
+                              const std::vector<Eigen::Vector2d>& start,
+                              bool blade_on_left,
+                              const EdgeFitOptions& options);
+
+}  // namespace bladecurve
