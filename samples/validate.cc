@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "samples/commands.h"
+#include "samples/output_files.h"
+#include "samples/parallel.h"
+#include "samples/validation_plot.h"
+#include "samples/validation_run.h"
+#include "samples/validation_scene.h"
+#include "samples/validation_table.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ValidateCommand {
+  int scenes = 50;
+  std::uint64_t seed = 1;
+  Difficulty difficulty = Difficulty::kStandard;
+  std::string csv, plot;
+  int threads = 1;
+  bool quiet = false, no_times = false;
+};
+
+// A folder of its own that goes when this goes.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string pattern = (fs::temp_directory_path() / "bladecurve-validate-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw std::runtime_error("cannot make a folder in " + fs::temp_directory_path().string() +
+                               "; set TMPDIR to one that can be written");
+    }
+    path_ = pattern;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+// On a terminal only.
+void ShowProgress(int done, int of) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  std::cerr << "\r" << done << " of " << of << " scenes" << (done == of ? "\n" : "") << std::flush;
+}
+
+std::vector<ValidationRow> RunScenes(const ValidateCommand& command) {
+  const ScratchFolder folder;
+  std::vector<ValidationRow> rows(static_cast<std::size_t>(command.scenes));
+  std::atomic<int> done = 0;
+  ParallelFor(command.scenes, command.threads, [&](int number) {
+    rows[static_cast<std::size_t>(number)] =
+        ValidateScene(MakeValidationScene(number, command.seed, command.difficulty), folder.path());
+    const int so_far = ++done;
+    if (!command.quiet) ShowProgress(so_far, command.scenes);
+  });
+  return rows;
+}
+
+int RunValidate(const ValidateCommand& command) {
+  const std::vector<ValidationRow> rows = RunScenes(command);
+  if (command.csv == "-") {
+    std::cout << ValidationCsv(rows, !command.no_times);
+  } else {
+    if (!command.csv.empty()) WriteFileWhole(command.csv, ValidationCsv(rows, !command.no_times));
+    std::cout << ValidationTable(rows, !command.no_times);
+  }
+  if (!command.plot.empty()) WriteFileWhole(command.plot, WorkPrecisionSvg(rows));
+  return kExitOk;
+}
+
+}  // namespace
+
+void AddValidate(CLI::App& app, int* exit_code) {
+  const auto command = std::make_shared<ValidateCommand>();
+  CLI::App* sub = app.add_subcommand(
+      "validate", "Render photographs with known truth, measure them, and compare");
+  sub->add_option("--scenes", command->scenes, "How many; every tenth one must be refused")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  sub->add_option("--seed", command->seed, "Of the series of scenes")->capture_default_str();
+  const std::map<std::string, Difficulty> names = {{"clean", Difficulty::kClean},
+                                                   {"standard", Difficulty::kStandard},
+                                                   {"hard", Difficulty::kHard}};
+  sub->add_option("--difficulty", command->difficulty, "Which range scenes are drawn from")
+      ->transform(CLI::CheckedTransformer(names));
+  sub->add_option("--csv", command->csv, "One line a scene; '-': standard output, no table");
+  sub->add_option("--plot", command->plot, "Work-precision plot, FILE.svg");
+  sub->add_option("--threads", command->threads, "Scenes at a time; more disturb the times")
+      ->check(CLI::Range(1, 1024));
+  sub->add_flag("--quiet", command->quiet, "No progress");
+  sub->add_flag("--no-times", command->no_times, "Leave times out: same seed, same bytes");
+  sub->callback([command, exit_code] { *exit_code = RunValidate(*command); });
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "samples/validation_scene.h"
+
+namespace bladecurve {
+
+// What is compared with the truth.
+enum class Quantity { kEdge, kPivot, kTheta, kScale, kPhi, kTorque };
+inline constexpr int kQuantities = 6;
+
+// An error and the standard uncertainty that the program stated for it, in the same unit.
+struct StatedError {
+  double error = 0;
+  double sigma = 0;
+};
+
+struct QuantityErrors {
+  double size =
+      std::numeric_limits<double>::quiet_NaN();  // never negative; px, px, deg, ppm, mm, %
+  std::vector<StatedError> stated;  // of its components; empty where no uncertainty is stated
+};
+
+struct ValidationRow {
+  int number = 0;
+  std::string expected;  // "ok" or the reason code that is right
+  std::string outcome;   // "ok", "review" or the reason code that came
+  std::string detail;    // warnings, or what the refusal says
+  double theta_deg = 0;  // of the scene
+  double ms = std::numeric_limits<double>::quiet_NaN();  // photograph to curve, in process
+  std::array<QuantityErrors, kQuantities> errors;
+
+  [[nodiscard]] bool measured() const { return outcome == "ok" || outcome == "review"; }
+  [[nodiscard]] const QuantityErrors& Of(Quantity q) const {
+    return errors[static_cast<std::size_t>(q)];
+  }
+};
+
+// Renders the scene into a file in `folder`, runs the pipeline on it as `fit` does (camera
+// calibration, marker size and plane height given) and compares the result with the truth. The file
+// is removed again.
+[[nodiscard]] ValidationRow ValidateScene(const ValidationScene& scene,
+                                          const std::filesystem::path& folder);
+
+}  // namespace bladecurve

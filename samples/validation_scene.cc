@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "samples/validation_scene.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace bladecurve {
+namespace {
+
+constexpr int kRefusalEvery = 10;
+
+void Close(SceneSpec* spec) {
+  spec->theta_rad =
+      -3 * std::numbers::pi / 180;  // the blades have passed each other, as in a drawer
+}
+
+// Moves the scissors along their axis until their tips are a quarter of a blade outside.
+void CutOffTips(SceneSpec* spec) {
+  const Eigen::Vector2d ahead(std::cos(spec->heading_rad), std::sin(spec->heading_rad));
+  const double half_width_mm = 0.5 * spec->width * spec->camera.mm_per_px;
+  const double half_height_mm = 0.5 * spec->height * spec->camera.mm_per_px;
+  const double to_border_mm =
+      std::min(half_width_mm / std::abs(ahead.x()), half_height_mm / std::abs(ahead.y()));
+  spec->pivot_mm = (to_border_mm - 0.75 * spec->scissors.length_mm) * ahead;
+}
+
+}  // namespace
+
+ValidationScene MakeValidationScene(int number, std::uint64_t seed, Difficulty difficulty) {
+  constexpr std::uint64_t kApart = 1000003;  // a prime: neighbouring seeds share no scenes
+  ValidationScene scene;
+  scene.number = number;
+  scene.spec = RandomScene(seed * kApart + static_cast<std::uint64_t>(number), difficulty);
+  if (number % kRefusalEvery != kRefusalEvery - 1) return scene;
+  switch (number / kRefusalEvery % 3) {
+    case 0:
+      Close(&scene.spec);
+      scene.refuse = Reason::kClosed;
+      break;
+    case 1:
+      CutOffTips(&scene.spec);
+      scene.refuse = Reason::kBladesNotVisible;
+      break;
+    default:
+      scene.spec.with_scissors = false;
+      scene.refuse = Reason::kNotScissors;
+  }
+  return scene;
+}
+
+}  // namespace bladecurve

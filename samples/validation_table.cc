@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "samples/validation_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace bladecurve {
+namespace {
+
+constexpr double kTwoSided95 = 1.959964;  // standard normal
+
+constexpr std::array<Quantity, kQuantities> kAll = {Quantity::kEdge,
+                                                    Quantity::kPivot,
+                                                    Quantity::kTheta,
+                                                    Quantity::kScale,
+                                                    Quantity::kPhi,
+                                                    Quantity::kTorque};
+
+std::vector<double> SizesOf(const std::vector<ValidationRow>& rows, Quantity quantity) {
+  std::vector<double> sizes;
+  for (const ValidationRow& row : rows) {
+    if (row.measured() && row.expected == "ok") sizes.push_back(row.Of(quantity).size);
+  }
+  return sizes;
+}
+
+struct Coverage {
+  int held = 0, of = 0;
+  [[nodiscard]] double share() const { return static_cast<double>(held) / of; }
+};
+
+Coverage CoverageOf(const std::vector<ValidationRow>& rows, Quantity quantity) {
+  Coverage coverage;
+  for (const ValidationRow& row : rows) {
+    if (!row.measured() || row.expected != "ok") continue;
+    for (const StatedError& stated : row.Of(quantity).stated) {
+      if (!std::isfinite(stated.error)) continue;
+      ++coverage.of;
+      if (std::abs(stated.error) <= kTwoSided95 * stated.sigma) ++coverage.held;
+    }
+  }
+  return coverage;
+}
+
+std::string ErrorTable(const std::vector<ValidationRow>& rows) {
+  std::string text = fmt::format("{:<14}{:>12}{:>12}{:>12}{:>26}\n",
+                                 "error",
+                                 "median",
+                                 "95th",
+                                 "largest",
+                                 "95 % interval holds truth");
+  for (const Quantity quantity : kAll) {
+    const std::vector<double> sizes = SizesOf(rows, quantity);
+    const Coverage coverage = CoverageOf(rows, quantity);
+    const std::string held =
+        coverage.of > 0 ? fmt::format("{:.1f} % of {}", 100 * coverage.share(), coverage.of)
+                        : "no interval";
+    text += fmt::format("{:<14}{:>12.4g}{:>12.4g}{:>12.4g}{:>26}\n",
+                        fmt::format("{}, {}", QuantityName(quantity), QuantityUnit(quantity)),
+                        Percentile(sizes, 0.5),
+                        Percentile(sizes, 0.95),
+                        Percentile(sizes, 1),
+                        held);
+  }
+  return text;
+}
+
+std::string CountsText(const std::map<std::string, int>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? " (" : ", ", name, count);
+  }
+  return text.empty() ? "" : text + ")";
+}
+
+std::string RefusalTable(const std::vector<ValidationRow>& rows) {
+  std::map<std::string, int> wrongly, rightly, other_reason;
+  int ok = 0, review = 0, accepted = 0;
+  for (const ValidationRow& row : rows) {
+    if (row.expected == "ok") {
+      ok += row.outcome == "ok" ? 1 : 0;
+      review += row.outcome == "review" ? 1 : 0;
+      if (!row.measured()) ++wrongly[row.outcome];
+    } else if (row.measured()) {
+      ++accepted;
+    } else if (row.outcome == row.expected) {
+      ++rightly[row.outcome];
+    } else {
+      ++other_reason[row.outcome + " for " + row.expected];
+    }
+  }
+  const auto total = [](const std::map<std::string, int>& counts) {
+    int sum = 0;
+    for (const auto& entry : counts) sum += entry.second;
+    return sum;
+  };
+  return fmt::format("can be measured: {} ok, {} review, {} refused{}\n",
+                     ok,
+                     review,
+                     total(wrongly),
+                     CountsText(wrongly)) +
+         fmt::format("must be refused: {} refused{}, {} with another reason{}, {} ACCEPTED\n",
+                     total(rightly),
+                     CountsText(rightly),
+                     total(other_reason),
+                     CountsText(other_reason),
+                     accepted);
+}
+
+std::string TimeLine(const std::vector<ValidationRow>& rows) {
+  std::vector<double> ms;
+  for (const ValidationRow& row : rows) ms.push_back(row.ms);
+  return fmt::format("\nphotograph to curve: median {:.1f} ms, 95th {:.1f} ms\n",
+                     Percentile(ms, 0.5),
+                     Percentile(ms, 0.95));
+}
+
+// Quoted as RFC 4180 has it.
+std::string CsvText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
+  return quoted + "\"";
+}
+
+std::string CsvNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+// Largest of |error| / sigma; empty where no uncertainty is stated.
+std::string CsvSigmas(const QuantityErrors& errors) {
+  double largest = std::numeric_limits<double>::quiet_NaN();
+  for (const StatedError& stated : errors.stated) {
+    largest = std::fmax(largest, std::abs(stated.error) / stated.sigma);
+  }
+  return CsvNumber(largest);
+}
+
+}  // namespace
+
+const char* QuantityName(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kEdge:
+      return "edge";
+    case Quantity::kPivot:
+      return "pivot";
+    case Quantity::kTheta:
+      return "theta";
+    case Quantity::kScale:
+      return "scale";
+    case Quantity::kPhi:
+      return "phi";
+    case Quantity::kTorque:
+      return "torque";
+  }
+  return "";
+}
+
+const char* QuantityUnit(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kEdge:
+      return "px";
+    case Quantity::kPivot:
+      return "px";
+    case Quantity::kTheta:
+      return "deg";
+    case Quantity::kScale:
+      return "ppm";
+    case Quantity::kPhi:
+      return "mm";
+    case Quantity::kTorque:
+      return "percent";
+  }
+  return "";
+}
+
+double Percentile(std::vector<double> values, double share) {
+  std::erase_if(values, [](double value) { return std::isnan(value); });
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  return values[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+std::string ValidationTable(const std::vector<ValidationRow>& rows, bool with_times) {
+  return fmt::format("{} scenes\n{}\n{}{}",
+                     rows.size(),
+                     RefusalTable(rows),
+                     ErrorTable(rows),
+                     with_times ? TimeLine(rows) : std::string());
+}
+
+std::string ValidationCsv(const std::vector<ValidationRow>& rows, bool with_times) {
+  std::string text = "scene,expected,outcome,theta_deg";
+  for (const Quantity quantity : kAll) {
+    const std::string name = QuantityName(quantity);
+    text += fmt::format(",{}_error_{},{}_sigmas", name, QuantityUnit(quantity), name);
+  }
+  text += with_times ? ",ms,detail\n" : ",detail\n";
+  for (const ValidationRow& row : rows) {
+    text += fmt::format("{},{},{},{}", row.number, row.expected, row.outcome, row.theta_deg);
+    for (const Quantity quantity : kAll) {
+      const QuantityErrors& errors = row.Of(quantity);
+      text += fmt::format(",{},{}", CsvNumber(errors.size), CsvSigmas(errors));
+    }
+    if (with_times) text += fmt::format(",{}", CsvNumber(row.ms));
+    text += fmt::format(",{}\n", CsvText(row.detail));
+  }
+  return text;
+}
+
+}  // namespace bladecurve
