@@ -3,6 +3,7 @@
 #include "samples/analysis_flags.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -207,32 +208,37 @@ AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags) {
   return settings;
 }
 
-std::string SettingsLine(const AnalysisFlags& flags) {
-  std::string line = fmt::format("units={} family={} gain={} loss={} knots={} plan={}",
-                                 flags.units,
-                                 flags.family,
-                                 flags.gain,
-                                 flags.loss,
-                                 flags.knots,
-                                 flags.plan);
-  const std::initializer_list<std::pair<const char*, const std::optional<std::string>*>> optional =
-      {{"card", &flags.card},
-       {"marker-mm", &flags.marker_mm},
-       {"mm-per-px", &flags.mm_per_px},
-       {"dpi", &flags.dpi},
-       {"length-mm", &flags.length_mm},
-       {"print-scale", &flags.print_scale},
-       {"plane-height-mm", &flags.plane_height_mm},
-       {"camera", &flags.camera},
-       {"theta-deg", &flags.theta_deg},
-       {"pivot", &flags.pivot},
-       {"tips-toward", &flags.tips_toward},
-       {"roi", &flags.roi},
-       {"degree", &flags.degree}};
-  for (const auto& [name, value] : optional) {
-    if (*value) line += fmt::format(" {}={}", name, **value);
+std::vector<std::string> GivenArguments(const CLI::App& command) {
+  // A fresh command knows which of the flags are analysis flags, and their order.
+  CLI::App known;
+  AnalysisFlags unused;
+  AddScaleFlags(known, &unused);
+  AddHintFlags(known, &unused);
+  AddFitFlags(known, &unused);
+  known.add_option("--plan", unused.plan);
+  std::vector<std::string> arguments;
+  for (const CLI::Option* option : std::as_const(known).get_options()) {
+    const std::string name = option->get_name();
+    const CLI::Option* given = command.get_option_no_throw(name);
+    if (given == nullptr || given->count() == 0) continue;
+    const bool is_switch = given->get_items_expected_max() == 0;
+    arguments.push_back(is_switch ? name : name + "=" + given->results().front());
   }
-  return flags.upper_is_left ? line + " upper-is-left" : line;
+  return arguments;
+}
+
+AnalysisFlags FlagsFromArguments(const std::vector<std::string>& arguments) {
+  CLI::App command;
+  AnalysisFlags flags;
+  AddAnalysisFlags(command, &flags);
+  try {
+    // CLI11 takes arguments last one first.
+    command.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+  } catch (const CLI::ParseError& error) {
+    throw std::invalid_argument(
+        fmt::format("flags '{}': {}", fmt::join(arguments, " "), error.what()));
+  }
+  return flags;
 }
 
 }  // namespace bladecurve

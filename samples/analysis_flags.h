@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "samples/analysis.h"
 
@@ -36,8 +37,12 @@ void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags);
 // once.
 [[nodiscard]] AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags);
 
-// The flags that change a result, one canonical line: equal lines, equal results. Threads are left
-// out; files (--camera, --card) stand by name.
-[[nodiscard]] std::string SettingsLine(const AnalysisFlags& flags);
+// The flags given to `command` that change a result, as "--name=value" in a fixed order: equal
+// arguments, equal results. --threads and --debug are left out; files (--camera, --card) stand by
+// name.
+[[nodiscard]] std::vector<std::string> GivenArguments(const CLI::App& command);
+
+// The reverse. Throws std::invalid_argument for an unknown flag or a value that cannot be.
+[[nodiscard]] AnalysisFlags FlagsFromArguments(const std::vector<std::string>& arguments);
 
 }  // namespace bladecurve

@@ -34,10 +34,6 @@ Json ShapeRecord(const RigidSpline& shape) {
           {"coefficients_mm", shape.coefficients_mm}};
 }
 
-Json CurveRecord(const BladeCurve& curve) {
-  return std::visit([](const auto& shape) { return ShapeRecord(shape); }, curve.shape());
-}
-
 Json DomainRecord(const CurveDomain& domain) {
   return {{"x_mm", {domain.x_min_mm, domain.x_max_mm}},
           {"theta_rad", {domain.theta_min_rad, domain.theta_max_rad}}};
@@ -134,6 +130,10 @@ std::string LineAKey(const Json& record) {
 }
 
 }  // namespace
+
+Json CurveRecord(const BladeCurve& curve) {
+  return std::visit([](const auto& shape) { return ShapeRecord(shape); }, curve.shape());
+}
 
 std::vector<std::string> Warnings(const Analysis& analysis) {
   std::vector<std::string> warnings;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct RecordOptions {
 
 // "ok", or "review" where there are warnings.
 [[nodiscard]] std::string Status(const Analysis& analysis);
+
+// The "curve" object: family and its numbers.
+[[nodiscard]] nlohmann::ordered_json CurveRecord(const BladeCurve& curve);
 
 // NAME.blade.json, format "bladecurve/1": one line a top-level key, numbers in the shortest form
 // that reads back exactly, what is unknown is null; ends in a newline.

@@ -74,6 +74,8 @@ int Complain(const CLI::App& app, const std::string& message, ExitCode exit_code
 
 void AddCommands(CLI::App& app, int* exit_code) {
   AddFit(app, exit_code);
+  AddEval(app, exit_code);
+  AddExport(app, exit_code);
   AddCatalog(app, exit_code);
   AddTorque(app, exit_code);
   AddValidate(app, exit_code);
