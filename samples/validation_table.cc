@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "samples/csv_text.h"
+
 namespace bladecurve {
 namespace {
 
@@ -119,13 +121,6 @@ std::string TimeLine(const std::vector<ValidationRow>& rows) {
                      Percentile(ms, 0.95));
 }
 
-// Quoted as RFC 4180 has it.
-std::string CsvText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
-  return quoted + "\"";
-}
-
 std::string CsvNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 // Largest of |error| / sigma; empty where no uncertainty is stated.
@@ -192,20 +187,24 @@ std::string ValidationTable(const std::vector<ValidationRow>& rows, bool with_ti
 }
 
 std::string ValidationCsv(const std::vector<ValidationRow>& rows, bool with_times) {
-  std::string text = "scene,expected,outcome,theta_deg";
+  std::vector<std::string> head = {"scene", "expected", "outcome", "theta_deg"};
   for (const Quantity quantity : kAll) {
-    const std::string name = QuantityName(quantity);
-    text += fmt::format(",{}_error_{},{}_sigmas", name, QuantityUnit(quantity), name);
+    head.push_back(fmt::format("{}_error_{}", QuantityName(quantity), QuantityUnit(quantity)));
+    head.push_back(fmt::format("{}_sigmas", QuantityName(quantity)));
   }
-  text += with_times ? ",ms,detail\n" : ",detail\n";
+  if (with_times) head.emplace_back("ms");
+  head.emplace_back("detail");
+  std::string text = CsvLine(head);
   for (const ValidationRow& row : rows) {
-    text += fmt::format("{},{},{},{}", row.number, row.expected, row.outcome, row.theta_deg);
+    std::vector<std::string> fields = {
+        fmt::format("{}", row.number), row.expected, row.outcome, CsvNumber(row.theta_deg)};
     for (const Quantity quantity : kAll) {
-      const QuantityErrors& errors = row.Of(quantity);
-      text += fmt::format(",{},{}", CsvNumber(errors.size), CsvSigmas(errors));
+      fields.push_back(CsvNumber(row.Of(quantity).size));
+      fields.push_back(CsvSigmas(row.Of(quantity)));
     }
-    if (with_times) text += fmt::format(",{}", CsvNumber(row.ms));
-    text += fmt::format(",{}\n", CsvText(row.detail));
+    if (with_times) fields.push_back(CsvNumber(row.ms));
+    fields.push_back(row.detail);
+    text += CsvLine(fields);
   }
   return text;
 }

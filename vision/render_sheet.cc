@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
 #include "vision/render_noise.h"
 
@@ -33,16 +32,6 @@ Eigen::Vector3d Wood(std::uint64_t seed, const Eigen::Vector2d& p, double streng
 
 }  // namespace
 
-double Sheet::CoarseField::At(const Eigen::Vector2d& px) const {
-  if (values.empty()) return 0;
-  const double x = std::clamp((px.x() + 0.5) / step_px - 0.5, 0.0, values.cols - 1.001);
-  const double y = std::clamp((px.y() + 0.5) / step_px - 0.5, 0.0, values.rows - 1.001);
-  const int c = static_cast<int>(x), r = static_cast<int>(y);
-  const double fx = x - c, fy = y - r;
-  return (values(r, c) * (1 - fx) + values(r, c + 1) * fx) * (1 - fy) +
-         (values(r + 1, c) * (1 - fx) + values(r + 1, c + 1) * fx) * fy;
-}
-
 Sheet::Sheet(const SceneSpec& scene,
              const Camera& camera,
              const std::vector<Polygon>& shadow_casters)
@@ -62,31 +51,23 @@ Sheet::Sheet(const SceneSpec& scene,
     folds_ = MakeFolds();
 }
 
-Sheet::CoarseField Sheet::MakeShadow(const std::vector<Polygon>& casters,
-                                     const Eigen::Vector2d& offset_mm,
-                                     double blur_mm) const {
-  const double blur_px = blur_mm / scene_.camera.mm_per_px;
-  CoarseField field;
-  field.step_px = std::clamp(std::floor(blur_px / 2), 1.0, 16.0);
-  const CoverageGrid grid{.step_px = field.step_px,
-                          .cols = static_cast<int>(scene_.width / field.step_px) + 2,
-                          .rows = static_cast<int>(scene_.height / field.step_px) + 2};
-  field.values = cv::Mat1f::zeros(grid.rows, grid.cols);
-  for (Polygon caster : casters) {
-    for (Ring& ring : caster) {
+CoarseField Sheet::MakeShadow(const std::vector<Polygon>& casters,
+                              const Eigen::Vector2d& offset_mm,
+                              double blur_mm) const {
+  std::vector<Polygon> shadows = casters;
+  for (Polygon& shadow : shadows) {
+    for (Ring& ring : shadow) {
       for (Eigen::Vector2d& point : ring) {
         const Eigen::Vector2d p = point + offset_mm;
         point = camera_.PixelFromWorld({p.x(), p.y(), 0});
       }
     }
-    const cv::Mat1f coverage = PolygonCoverage(caster, grid);
-    field.values = cv::Mat1f(cv::max(field.values, coverage));
   }
-  cv::GaussianBlur(field.values, field.values, cv::Size(), std::max(blur_px / field.step_px, 0.3));
-  return field;
+  return ShadowField(
+      shadows, cv::Size(scene_.width, scene_.height), blur_mm / scene_.camera.mm_per_px);
 }
 
-Sheet::CoarseField Sheet::MakeFolds() const {
+CoarseField Sheet::MakeFolds() const {
   CoarseField field;
   field.step_px = 8;
   const int cols = static_cast<int>(scene_.width / field.step_px) + 2;

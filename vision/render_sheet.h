@@ -3,11 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core.hpp>
 #include <vector>
 
 #include "vision/render_camera.h"
 #include "vision/render_coverage.h"
+#include "vision/render_field.h"
 #include "vision/synthetic_scene.h"
 
 namespace bladecurve::render {
@@ -25,12 +25,6 @@ class Sheet {
   [[nodiscard]] double LightAt(const Eigen::Vector2d& px) const;
 
  private:
-  // A field that changes slowly: one value for each `step_px`, joined linearly.
-  struct CoarseField {
-    cv::Mat1f values;
-    double step_px = 1;
-    [[nodiscard]] double At(const Eigen::Vector2d& px) const;
-  };
   [[nodiscard]] CoarseField MakeShadow(const std::vector<Polygon>& casters,
                                        const Eigen::Vector2d& offset_mm,
                                        double blur_mm) const;

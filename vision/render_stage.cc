@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/render_stage.h"
 
+#include <cmath>
 #include <utility>
 
 #include "vision/render_markers.h"
@@ -35,6 +36,7 @@ Stage::Stage(const SceneSpec& scene)
       sheet_(scene, camera_, ShadowCasters()),
       upper_metal_(scene, upper_, true, scene.scissors.upper_on_top),
       lower_metal_(scene, lower_, false, !scene.scissors.upper_on_top) {
+  if (scene.with_scissors) blade_shadow_ = ShadowOnLowerBlade();
   for (const MarkerSpec& marker : scene.markers) AddMarker(marker);
   if (!scene.with_scissors) return;
   AddBlade(!scene.scissors.upper_on_top);
@@ -79,6 +81,24 @@ Polygon Stage::Project(Polygon blade_mm, bool upper, double height_mm) const {
   return blade_mm;
 }
 
+// The blade on top stands a thickness above the face of the other one; the light makes it fall away
+// from the lamp, and the sky that it hides makes the joint dark.
+CoarseField Stage::ShadowOnLowerBlade() const {
+  const bool upper = scene_.scissors.upper_on_top;
+  const LightSpec& light = scene_.light;
+  const double reach_mm = scene_.scissors.thickness_mm / std::tan(light.elevation_rad);
+  const Eigen::Vector2d offset_mm =
+      -reach_mm * Eigen::Vector2d(std::cos(light.direction_rad), std::sin(light.direction_rad));
+  Ring shadow = upper ? upper_.body : lower_.body;
+  for (Eigen::Vector2d& p : shadow) {
+    const Eigen::Vector2d world_mm = WorldFromBlade(p, upper) + offset_mm;
+    p = camera_.PixelFromWorld({world_mm.x(), world_mm.y(), scene_.edge_height_mm});
+  }
+  const double blur_mm = 0.3 * scene_.scissors.thickness_mm + 0.2 * light.shadow_blur_mm;
+  return ShadowField(
+      {{shadow}}, cv::Size(scene_.width, scene_.height), blur_mm / scene_.camera.mm_per_px);
+}
+
 void Stage::AddMarker(const MarkerSpec& marker) {
   constexpr double kPaperAlbedo = 0.95, kInkAlbedo = 0.045;  // laser printer
   const auto printed = [this](double albedo) {
@@ -98,10 +118,12 @@ void Stage::AddBlade(bool upper) {
   const BladeOutline& outline = upper ? upper_ : lower_;
   const Metal& metal = upper ? upper_metal_ : lower_metal_;
   const double height_mm = scene_.edge_height_mm;
-  layers_.push_back(MakeLayer(Project({outline.body}, upper, height_mm),
-                              [=, this, &metal](const Eigen::Vector2d& px) {
-                                return metal.BodyAt(BladeFromPixel(px, upper, height_mm));
-                              }));
+  const double shadow = upper == scene_.scissors.upper_on_top ? 0 : scene_.light.shadow;
+  layers_.push_back(MakeLayer(
+      Project({outline.body}, upper, height_mm), [=, this, &metal](const Eigen::Vector2d& px) {
+        const double light = 1 - shadow * blade_shadow_.At(px);
+        return Eigen::Vector3d(light * metal.BodyAt(BladeFromPixel(px, upper, height_mm)));
+      }));
   layers_.push_back(MakeLayer(Project({outline.ring_outer, outline.ring_inner}, upper, height_mm),
                               [=, this, &metal](const Eigen::Vector2d& px) {
                                 return metal.RingAt(BladeFromPixel(px, upper, height_mm));

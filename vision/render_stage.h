@@ -9,6 +9,7 @@
 
 #include "vision/render_camera.h"
 #include "vision/render_coverage.h"
+#include "vision/render_field.h"
 #include "vision/render_metal.h"
 #include "vision/render_outline.h"
 #include "vision/render_sheet.h"
@@ -43,6 +44,7 @@ class Stage {
                                                double height_mm) const;
   [[nodiscard]] Polygon Project(Polygon blade_mm, bool upper, double height_mm) const;
   [[nodiscard]] std::vector<Polygon> ShadowCasters() const;
+  [[nodiscard]] CoarseField ShadowOnLowerBlade() const;
   void AddMarker(const MarkerSpec& marker);
   void AddBlade(bool upper);
   void AddScrew();
@@ -52,6 +54,7 @@ class Stage {
   BladeOutline upper_, lower_;
   Sheet sheet_;
   Metal upper_metal_, lower_metal_;
+  CoarseField blade_shadow_;  // that the blade on top casts on the other one
   std::vector<Layer> layers_;
 };
 

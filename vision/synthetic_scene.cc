@@ -134,15 +134,17 @@ void Lay(Dice* dice, Difficulty difficulty, SceneSpec* scene) {
   scene->drape_rgb = dice->OneOf({blue, green, violet}) * dice->Between(0.7, 1.3);
   scene->texture = dice->Between(0.5, 1.1);
   if (difficulty == Difficulty::kClean) return;
-  if (dice->Chance(0.3))
+  if (dice->Chance(0.3)) {
     scene->backdrop = dice->OneOf({Backdrop::kCloth, Backdrop::kDrape, Backdrop::kLightTable});
+  }
   if (difficulty != Difficulty::kHard) return;
   scene->backdrop = dice->OneOf({Backdrop::kPaper,
                                  Backdrop::kCloth,
                                  Backdrop::kDrape,
                                  Backdrop::kWood,
                                  Backdrop::kBlack,
-                                 Backdrop::kLightTable});
+                                 Backdrop::kLightTable,
+                                 Backdrop::kCutOut});
   scene->finish = dice->Chance(0.2) ? Finish::kGold : Finish::kSteel;
 }
 
@@ -158,6 +160,27 @@ std::vector<Eigen::Vector2d> MetalOutline(const SceneSpec& scene) {
     }
   }
   return world_mm;
+}
+
+// A catalogue picture: cut out, no shadow, seen squarely, its scale known from elsewhere.
+void CutOut(SceneSpec* scene) {
+  scene->light.shadow = 0;
+  scene->light.contact_shadow = 0;
+  scene->camera.tilt_rad = 0;
+  scene->camera.k1 = 0;
+}
+
+// Some photographs show no rings: the camera is nearer, the tips keep their distance from the
+// border.
+void CropHandles(SceneSpec* scene) {
+  constexpr double kNearer = 0.72;
+  const double before = scene->camera.mm_per_px;
+  scene->camera.mm_per_px *= kNearer;
+  const Eigen::Vector2d ahead(std::cos(scene->heading_rad), std::sin(scene->heading_rad));
+  const double cropped_mm = (1 - kNearer) * before * scene->width *
+                            std::min(0.5 / std::max(std::abs(ahead.x()), 1e-9),
+                                     0.375 / std::max(std::abs(ahead.y()), 1e-9));
+  scene->pivot_mm -= cropped_mm * ahead;
 }
 
 // Up to four markers along the border of the picture, clear of the metal.
@@ -214,6 +237,11 @@ SceneSpec RandomScene(std::uint64_t seed, Difficulty difficulty) {
   Light(&dice, difficulty, &scene);
   Lay(&dice, difficulty, &scene);
   scene.seed = dice.Bits();
+  if (scene.backdrop == Backdrop::kCutOut) {
+    CutOut(&scene);
+    return scene;
+  }
+  if (hard && dice.Chance(0.2)) CropHandles(&scene);
   AddMarkers(&dice, &scene);
   return scene;
 }
