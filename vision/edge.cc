@@ -19,8 +19,6 @@ namespace bladecurve {
 namespace {
 
 constexpr double kGuessSmoothing = 3;  // px: rounds the corners of the guessed polyline
-constexpr double kBackgroundPx = 10;   // seen beyond the search range, to know the background
-constexpr double kBladePx = 8;         // the same inwards
 
 void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
   if (grey.empty() || grey.type() != CV_8UC1)
@@ -31,26 +29,6 @@ void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& optio
   if (!(options.step_px > 0)) throw std::invalid_argument("edge: step_px must be positive");
   if (!(options.outlier_sigmas > 0))
     throw std::invalid_argument("edge: outlier_sigmas must be positive");
-}
-
-// The transition chosen, and where it runs in the picture.
-struct Traced {
-  std::vector<Eigen::Vector2d> points;
-  ChosenTransition chosen;
-};
-
-Traced Trace(const cv::Mat& grey, const ToneCurve& tone, const EdgePath& path, double search_px) {
-  const StraightBand band =
-      StraightenBand(grey, tone, path, search_px + kBladePx, search_px + kBackgroundPx);
-  Traced traced;
-  traced.chosen = ChooseTransition(band, search_px);
-  traced.points = Shifted(path, traced.chosen.offset_px);
-  return traced;
-}
-
-Traced FindTransition(const cv::Mat& grey, const ToneCurve& tone, const EdgeGuess& guess) {
-  const EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
-  return Trace(grey, tone, rough, guess.search_px);
 }
 
 void RefuseIfUnseen(const ChosenTransition& chosen) {
@@ -69,16 +47,17 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
                        const EdgeGuess& guess,
                        const EdgeOptions& options) {
   Check(grey, guess, options);
-  const Traced traced = FindTransition(grey, tone, guess);
-  RefuseIfUnseen(traced.chosen);
+  const EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
+  const ChosenTransition chosen = ChooseTransition(grey, rough, guess.search_px);
+  RefuseIfUnseen(chosen);
   EdgeFitOptions fit_options;
-  fit_options.inner_px = traced.chosen.inner_px;
-  fit_options.outer_px = traced.chosen.outer_px;
+  fit_options.inner_px = chosen.inner_px;
+  fit_options.outer_px = chosen.outer_px;
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
-  const EdgeFit fit = FitEdge(grey, tone, traced.points, guess.blade_on_left, fit_options);
+  const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);
   LocatedEdge edge = PointsFromFit(fit, options);
-  edge.ambiguity = traced.chosen.ambiguity;
+  edge.ambiguity = chosen.ambiguity;
   edge.common_sigma_px = ToneSigma(fit, tone);
   return edge;
 }

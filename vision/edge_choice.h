@@ -2,26 +2,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/edge_band.h"
+#include "vision/edge_path.h"
 
 namespace bladecurve {
 
-// Which of the transitions in a straightened band is the blade's border, to about a pixel.
+// Which of the transitions beside a guessed path is the blade's border, to about a pixel.
 struct ChosenTransition {
-  std::vector<double> offset_px;  // from the path, one per column, positive out of the blade
-  std::vector<double>
-      inner_px;  // how far the blade goes without another transition, one per column
-  std::vector<double> outer_px;  // the same for the background
-  double support = 0;            // share of columns in which the transition is seen, 0 to 1
-  double ambiguity = 0;  // 0: nothing else comes near; 1: another line through the band is as good
-  double rival_px = 0;   // how far off that other line is
+  std::vector<Eigen::Vector2d> points;  // along it, about a pixel apart
+  std::vector<double> inner_px;         // from each point to the next transition within the blade
+  std::vector<double> outer_px;  // the same in the background; kNoTransition where there is none
+  double support = 0;            // share of the path along which the transition is seen, 0 to 1
+  double ambiguity = 0;          // 0: no other line comes near; 1: another one is as good
+  double rival_px = 0;           // where that other line lies, positive out of the blade
 };
 
-// The border is the outermost sharp step that can be followed along the band. Shadows' borders are
-// soft, and a local fit with sloping levels does not take them for steps; bevel lines, glints and
-// engraved lines lie further in.
-[[nodiscard]] ChosenTransition ChooseTransition(const StraightBand& band, double search_px);
+inline constexpr double kNoTransition = 1e3;
+
+// The border is the outermost sharp step that can be followed along the path. A shadow's border is
+// soft, or the dark band between it and the blade is wide; bevel lines, glints and ridges lie
+// further in.
+[[nodiscard]] ChosenTransition ChooseTransition(const cv::Mat& grey,
+                                                const EdgePath& guess,
+                                                double search_px);
 
 }  // namespace bladecurve

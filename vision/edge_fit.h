@@ -27,7 +27,7 @@ struct EdgeSlice {
   double offset_px = 0;  // of the edge from the path, positive out of the blade
   double sigma_px = 0;   // from the pixels' noise, the levels paid for
   double contrast = 0;   // background minus blade
-  double misfit = 0;     // chi-square per pixel; 1 where the model holds
+  double ground = 0;     // background at the edge
 };
 
 struct EdgeFit {

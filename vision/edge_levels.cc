@@ -8,7 +8,10 @@
 
 namespace bladecurve {
 
-LevelVector LevelTerms(const StepSample& sample, double across_px, double blur_variance) {
+LevelVector LevelTerms(const StepSample& sample,
+                       const StepSample& face,
+                       double across_px,
+                       double blur_variance) {
   const double d = across_px, s = sample.step;
   const double blurred_corner =
       blur_variance * sample.slope;  // what blur adds to a ramp that starts at the edge
@@ -20,6 +23,8 @@ LevelVector LevelTerms(const StepSample& sample, double across_px, double blur_v
   terms[kGroundBend] = (d * d + blur_variance) * s + d * blurred_corner;
   terms[kShift] = sample.slope;
   terms[kSpread] = sample.spread;
+  terms[kFace] = 1 - face.step;
+  terms[kFaceShift] = face.slope;
   return terms;
 }
 

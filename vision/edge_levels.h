@@ -10,9 +10,10 @@
 namespace bladecurve {
 
 // The picture beside an edge, linear in its coefficients and seen through the pixel and the blur:
-//   blade       L0 + L1 d                    (d < 0)
-//   background  B0 + B1 d + B2 d^2           (d > 0)
-// and the first-order changes of both with a shift of the edge and with the blur.
+//   blade       L0 + L1 d         (d < 0), and F more beyond a parallel transition inside it (a
+//   bevel's inner border) background  B0 + B1 d + B2 d^2  (d > 0)
+// and the first-order changes with a shift of the edge, with the blur, and with a shift of the
+// inner transition.
 enum LevelTerm {
   kBlade,
   kBladeSlope,
@@ -21,14 +22,18 @@ enum LevelTerm {
   kGroundBend,
   kShift,
   kSpread,
+  kFace,
+  kFaceShift,
   kLevelTerms
 };
 
 using LevelVector = Eigen::Matrix<double, kLevelTerms, 1>;
 using LevelMatrix = Eigen::Matrix<double, kLevelTerms, kLevelTerms>;
 
-// The terms' values at one pixel, its signed distance from the edge being across_px.
+// The terms' values at one pixel, its signed distance from the edge being across_px; `face` is the
+// blurred step of the inner transition there.
 [[nodiscard]] LevelVector LevelTerms(const StepSample& sample,
+                                     const StepSample& face,
                                      double across_px,
                                      double blur_variance);
 

@@ -67,6 +67,7 @@ EdgePath SmoothPath(const std::vector<Vector2d>& polyline,
                     bool blade_on_left,
                     double smoothing_px) {
   EdgePath path;
+  path.blade_on_left = blade_on_left;
   path.points =
       RunningMeans(ResampleEveryPixel(polyline), static_cast<int>(std::lround(smoothing_px)));
   const int n = path.size();

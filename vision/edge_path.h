@@ -13,6 +13,7 @@ struct EdgePath {
   std::vector<Eigen::Vector2d> tangents;  // unit, along the path
   std::vector<Eigen::Vector2d> normals;   // unit, out of the blade
   std::vector<double> curvatures;         // 1/px, positive where the blade is convex
+  bool blade_on_left = true;              // as EdgeGuess means it
 
   [[nodiscard]] int size() const { return static_cast<int>(points.size()); }
 };

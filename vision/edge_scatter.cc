@@ -110,19 +110,21 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
 }
 
 double ToneSigma(const EdgeFit& fit, const ToneCurve& tone) {
-  constexpr double kUsualGamma = 2.2;
-  constexpr double kTypical = 0.5;  // levels about mid-grey where no better is known
-  std::vector<double> contrasts;
-  for (const EdgeSlice& slice : fit.slices) contrasts.push_back(slice.contrast);
-  const double contrast = std::min(MedianAbsolute(std::move(contrasts)), 0.98);
-  const double low = std::max(0.01, std::min(kTypical - 0.5 * contrast, 1 - contrast)),
-               high = low + contrast;
+  constexpr double kUsualGamma = 2.2, kDarkest = 0.004;  // one grey level of sRGB
+  std::vector<double> shifts;
   const double exponent = 1 + tone.gamma_sigma / kUsualGamma;
-  // Light that is taken for half-way between the two levels when the exponent is off by one sigma.
-  const double half =
-      std::pow(0.5 * (std::pow(low, exponent) + std::pow(high, exponent)), 1 / exponent);
-  const double slope = contrast / std::sqrt(2 * std::numbers::pi * TotalBlurVariance(fit.blur_px));
-  return std::abs(half - 0.5 * (low + high)) / std::max(slope, 1e-9);
+  for (const EdgeSlice& slice : fit.slices) {
+    const double ground = std::clamp(slice.ground, kDarkest, 1.0),
+                 blade = std::clamp(slice.ground - slice.contrast, kDarkest, 1.0);
+    // Light that is taken for half-way between the two levels when the exponent is off by one
+    // sigma.
+    const double half =
+        std::pow(0.5 * (std::pow(ground, exponent) + std::pow(blade, exponent)), 1 / exponent);
+    const double slope =
+        std::abs(ground - blade) / std::sqrt(2 * std::numbers::pi * TotalBlurVariance(fit.blur_px));
+    shifts.push_back((half - 0.5 * (ground + blade)) / std::max(slope, 1e-3));
+  }
+  return MedianAbsolute(std::move(shifts));
 }
 
 }  // namespace bladecurve

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+// Difference of the light on two sides, smoothed over about a photograph's blur.
+constexpr std::array<double, 4> kRise = {-0.25, -0.5, 0.5, 0.25};
+constexpr int kFlank = 2;   // rows from a step to where its width is judged
+constexpr int kBeyond = 3;  // rows from a sharp step to where it is over
+
+void AverageColumns(const StraightBand& band, int center, int reach, std::vector<float>& mean) {
+  std::fill(mean.begin(), mean.end(), 0.0F);
+  const int first = std::max(center - reach, 0), last = std::min(center + reach, band.columns - 1);
+  for (int column = first; column <= last; ++column) {
+    const float* light = band.Column(column);
+    for (size_t row = 0; row < mean.size(); ++row) mean[row] += light[row];
+  }
+  const float share = 1.0F / static_cast<float>(last - first + 1);
+  for (float& value : mean) value *= share;
+}
+
+void FindHeights(const StraightBand& band, StepMap& map) {
+  std::vector<float> mean(static_cast<size_t>(band.rows));
+  for (int station = 0; station < map.stations; ++station) {
+    AverageColumns(band, station * map.layout.spacing, map.layout.reach, mean);
+    for (int row = 1; row + 2 < band.rows; ++row) {
+      double height = 0;
+      for (size_t tap = 0; tap < kRise.size(); ++tap)
+        height += kRise[tap] * mean[static_cast<size_t>(row) + tap - 1];
+      map.height[map.At(station, row)] = std::isfinite(height) ? static_cast<float>(height) : 0.0F;
+    }
+  }
+}
+
+double Percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// One place in the map and its neighbours across the band, all counted positive in the direction of
+// the step.
+class Place {
+ public:
+  Place(const StepMap& map, int station, int row)
+      : height_(&map.height[map.At(station, row)]), sign_(*height_ < 0 ? -1 : 1) {}
+
+  [[nodiscard]] double Height(int rows_away = 0) const {
+    return sign_ * static_cast<double>(height_[rows_away]);
+  }
+  [[nodiscard]] bool IsPeak() const { return Height() >= Height(-1) && Height() > Height(1); }
+
+  // What the step has beyond a steady gradient it may sit on.
+  [[nodiscard]] double AboveGradient() const {
+    return Height() - 0.5 * (Height(-kBeyond) + Height(kBeyond));
+  }
+
+  // Variance of its width in rows^2, pixels and filter included, as of a Gaussian: soft shadows are
+  // wide.
+  [[nodiscard]] double Variance() const {
+    const double flank = 0.5 * (std::max(Height(-kFlank), 0.0) + std::max(Height(kFlank), 0.0));
+    const double share = std::clamp(flank / std::max(Height(), 1e-12), 1e-6, 0.98);
+    return 0.5 * kFlank * kFlank / -std::log(share);
+  }
+
+  // Sharpening and compression put a small step of the other sign beside a large one.
+  [[nodiscard]] bool IsHalo() const {
+    constexpr double kHaloShare = 0.15;
+    double strongest = 0;
+    for (int away = 2; away <= 4; ++away)
+      strongest = std::max({strongest, -Height(-away), -Height(away)});
+    return Height() < kHaloShare * strongest;
+  }
+
+ private:
+  const float* height_;
+  double sign_;
+};
+
+template <typename Visit>
+void ForEachPlace(const StepMap& map, int first_row, const Visit& visit) {
+  for (int station = 0; station < map.stations; ++station) {
+    for (int row = std::max(first_row, kStepMargin); row + kStepMargin < map.rows; ++row)
+      visit(station, row);
+  }
+}
+
+// What texture and noise do: how far stations that share no column differ, for a shadow's border or
+// another blade may run along the band.
+double BackgroundResponse(const StepMap& map, int background_row) {
+  const int apart = (2 * map.layout.reach + 1) / map.layout.spacing + 1;
+  const int first_row = std::clamp(background_row, kStepMargin, map.rows - kStepMargin - 2);
+  std::vector<double> differences;
+  for (int station = 0; station + apart < map.stations; ++station) {
+    for (int row = first_row; row + kStepMargin < map.rows; ++row) {
+      differences.push_back(
+          std::abs(map.height[map.At(station, row)] - map.height[map.At(station + apart, row)]));
+    }
+  }
+  constexpr double kSigmaPerMedian = 1.4826;
+  constexpr double kLeastResponse = 1e-3;  // a quarter of a grey level
+  return std::max(kSigmaPerMedian * Percentile(std::move(differences), 0.5) / std::sqrt(2.0),
+                  kLeastResponse);
+}
+
+constexpr double kSigmas = 3;  // texture of normal distribution reaches this once in 400 places
+
+// Width of a sharp step in this photograph: that of the sharper ones among all that stand out.
+double SharpVariance(const StepMap& map) {
+  constexpr double kShare = 0.3;
+  std::vector<double> variances;
+  ForEachPlace(map, 0, [&](int station, int row) {
+    const Place place(map, station, row);
+    if (place.IsPeak() && place.AboveGradient() > 1.5 * kSigmas * map.background_response &&
+        !place.IsHalo()) {
+      variances.push_back(place.Variance());
+    }
+  });
+  return variances.empty() ? 1.5 : Percentile(std::move(variances), kShare);
+}
+
+double Clearness(const Place& place, double background_response, double sharp_variance) {
+  constexpr double kPenumbra =
+      2;  // px^2 of variance beyond the sharp steps': half-way from blade to soft shadow
+  if (place.IsHalo()) return 0;
+  const double relative = std::max(place.AboveGradient(), 0.0) / (kSigmas * background_response);
+  const double softness = std::max(place.Variance() - sharp_variance, 0.0) / kPenumbra;
+  const double off_peak = place.IsPeak() ? 1 : 0.4;
+  return off_peak * (1 - std::exp2(-relative * relative)) / (1 + softness * softness);
+}
+
+}  // namespace
+
+StepMap FindSteps(const StraightBand& band, const StationLayout& layout, int background_row) {
+  StepMap map;
+  map.layout = layout;
+  map.stations = (band.columns + layout.spacing - 1) / layout.spacing;
+  map.rows = band.rows;
+  map.height.assign(map.At(map.stations, 0), 0.0F);
+  map.clear.assign(map.height.size(), 0.0F);
+  FindHeights(band, map);
+  map.background_response = BackgroundResponse(map, background_row);
+  const double sharp_variance = SharpVariance(map);
+  ForEachPlace(map, 0, [&](int station, int row) {
+    const Place place(map, station, row);
+    map.clear[map.At(station, row)] =
+        static_cast<float>(Clearness(place, map.background_response, sharp_variance));
+  });
+  return map;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge_windows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+constexpr int kStretch = 4;           // samples whose normal equations are kept together
+constexpr int kStretchesPerStep = 2;  // from one window to the next
+constexpr int kReach = 6;             // stretches to either side of a window's centre
+constexpr int kStep = kStretch * kStretchesPerStep;
+constexpr double kOverlap = (2.0 * kReach + 1) / kStretchesPerStep;  // windows that share a stretch
+constexpr std::array<LevelTerm, 3> kSlopes = {kBladeSlope, kGroundSlope, kGroundBend};
+
+size_t Index(int i) { return static_cast<size_t>(i); }
+
+// Window coordinate of a sample: window w is centred on the middle of stretch kStretchesPerStep *
+// w.
+double WindowPosition(int sample) { return (sample - 0.5 * (kStretch - 1)) / kStep; }
+
+}  // namespace
+
+EdgeWindows::EdgeWindows(int samples)
+    : samples_(samples),
+      moments_(Index((samples + kStretch - 1) / kStretch)),
+      trust_(moments_.size(), 1.0) {}
+
+int EdgeWindows::StretchOf(int sample) { return sample / kStretch; }
+
+void EdgeWindows::Add(int sample, const LevelVector& terms, double light, double weight) {
+  moments_[Index(StretchOf(sample))].Add(terms, light, weight);
+}
+
+void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
+  constexpr double kUsual = 2.5;  // times the median: what texture does
+  if (chi_square.empty()) return;
+  std::vector<double> sorted(chi_square);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  for (size_t s = 0; s < trust_.size(); ++s) {
+    const double excess =
+        chi_square[s * chi_square.size() / trust_.size()] / std::max(kUsual * *middle, 1e-12);
+    trust_[s] = excess > 1 ? 1 / (excess * excess) : 1;
+  }
+}
+
+void EdgeWindows::SolveWith(const LevelVector& precision) {
+  fits_.clear();
+  for (int center = 0; center < stretches(); center += kStretchesPerStep) {
+    LevelMoments sum;
+    const int last = std::min(center + kReach, stretches() - 1);
+    for (int s = std::max(center - kReach, 0); s <= last; ++s)
+      sum.Add(moments_[Index(s)], trust_[Index(s)]);
+    fits_.push_back(SolveLevels(sum, precision));
+  }
+}
+
+void EdgeWindows::Solve(bool slopes, bool blur_known) {
+  LevelVector precision = LevelVector::Zero();
+  if (blur_known) precision[kSpread] = kFixed;
+  if (slopes) {
+    SolveWith(precision);
+    precision += SlopePrecision(fits_, kOverlap);
+  } else {
+    for (const LevelTerm term : kSlopes) precision[term] = kFixed;
+  }
+  if (!slopes || precision[kBladeSlope] + precision[kGroundSlope] + precision[kGroundBend] > 0)
+    SolveWith(precision);
+}
+
+const LevelFit& EdgeWindows::Nearest(int sample) const {
+  const long nearest = std::lround(WindowPosition(sample));
+  return fits_[static_cast<size_t>(std::clamp(nearest, 0L, static_cast<long>(fits_.size()) - 1))];
+}
+
+LevelVector EdgeWindows::LevelsAt(int sample) const {
+  const int last = static_cast<int>(fits_.size()) - 1;
+  const double position = std::clamp(WindowPosition(sample), 0.0, static_cast<double>(last));
+  const int a = static_cast<int>(position), b = std::min(a + 1, last);
+  const double t = position - a;
+  LevelVector levels = (1 - t) * fits_[Index(a)].levels + t * fits_[Index(b)].levels;
+  levels[kShift] = levels[kSpread] = 0;
+  return levels;
+}
+
+std::vector<double> EdgeWindows::AlongTheEdge(const std::vector<double>& of_windows) const {
+  std::vector<double> values;
+  const int last = static_cast<int>(of_windows.size()) - 1;
+  for (int i = 0; i < samples_; ++i) {
+    const double position = std::clamp(WindowPosition(i), 0.0, static_cast<double>(last));
+    const int a = static_cast<int>(position), b = std::min(a + 1, last);
+    values.push_back(of_windows[Index(a)] +
+                     (position - a) * (of_windows[Index(b)] - of_windows[Index(a)]));
+  }
+  return values;
+}
+
+int EdgeWindows::CenterSample(size_t window) const {
+  return std::min(static_cast<int>(window) * kStep, samples_ - 1);
+}
+
+}  // namespace bladecurve

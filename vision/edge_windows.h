@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vision/edge_levels.h"
+
+namespace bladecurve {
+
+// Overlapping windows along an edge, one every 8 samples and about 50 long, with the levels found
+// in each. A value "along the edge" has one entry a sample.
+class EdgeWindows {
+ public:
+  explicit EdgeWindows(int samples);
+
+  void Add(int sample, const LevelVector& terms, double light, double weight);
+
+  // Takes stretches of 4 samples whose pixels fit worse than their like out of the balance;
+  // chi_square: per pixel, of the stretches of an earlier round, evenly spaced.
+  void Distrust(const std::vector<double>& chi_square);
+
+  // Levels of every window. Slopes are kept only where the windows together support them.
+  void Solve(bool slopes, bool blur_known);
+
+  [[nodiscard]] const std::vector<LevelFit>& fits() const { return fits_; }
+  [[nodiscard]] const LevelFit& Nearest(int sample) const;
+  [[nodiscard]] LevelVector LevelsAt(int sample) const;  // interpolated; no shift or spread
+  [[nodiscard]] std::vector<double> AlongTheEdge(const std::vector<double>& of_windows) const;
+  [[nodiscard]] int CenterSample(size_t window) const;  // the sample a window is centred on
+
+  [[nodiscard]] int stretches() const { return static_cast<int>(moments_.size()); }
+  [[nodiscard]] static int StretchOf(int sample);
+
+ private:
+  void SolveWith(const LevelVector& precision);
+
+  int samples_;
+  std::vector<LevelMoments> moments_;  // of stretches
+  std::vector<double> trust_;
+  std::vector<LevelFit> fits_;
+};
+
+}  // namespace bladecurve
