@@ -53,6 +53,7 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   EdgeFitOptions fit_options;
   fit_options.inner_px = chosen.inner_px;
   fit_options.outer_px = chosen.outer_px;
+  fit_options.blur_px = chosen.blur_px;
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
   const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);

@@ -211,6 +211,7 @@ ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, do
   const Survey survey = Straightened(grey, guess, search_px);
   const StepLine line = WithoutHardShadow(survey, OutermostLine(survey, search_px), search_px);
   ChosenTransition chosen;
+  chosen.blur_px = survey.map.blur_px;
   chosen.support = ClearShare(survey.map, line);
   CompareWithRival(survey, line, search_px, chosen);
   const int spacing = survey.map.layout.spacing, samples = survey.path.size();

@@ -18,7 +18,6 @@ namespace {
 constexpr int kSketchRounds =
     4;  // on every third sample: from 1.5 px off and a blur wrong by 2 to within 0.05 px
 constexpr int kSketchStride = 3;
-constexpr double kLeastBlur = 0.25, kMostBlur = 6;
 constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
 
 size_t Index(int i) { return static_cast<size_t>(i); }
@@ -171,6 +170,7 @@ class Fitter {
   }
 
   void UpdateBlur() {
+    constexpr double kBlurFactor = 2;  // a wider step is another thing than the blade's border
     constexpr double kPriorInformation =
         30;  // 1/px^2; windows that know less together do not change the blur
     std::vector<std::pair<double, double>> steps{{options_.blur_px - blur_, kPriorInformation}};
@@ -179,7 +179,7 @@ class Fitter {
                          window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
     }
     const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_, 0.6 * blur_);
-    blur_ = std::clamp(blur_ + step, kLeastBlur, kMostBlur);
+    blur_ = std::clamp(blur_ + step, options_.blur_px / kBlurFactor, options_.blur_px * kBlurFactor);
   }
 
   // Takes the path to where the windows see the edge, remembering how far that is from the start.

@@ -17,7 +17,7 @@ struct EdgeFitOptions {
   // spaced).
   std::vector<double> inner_px = {kFree}, outer_px = {kFree};
   static constexpr double kFree = 1e3;
-  double blur_px = 0.9;  // of a usual photograph; the search for the blur starts here
+  double blur_px = 0.9;  // known to a factor of two; 0.9 is usual
   bool correct_curvature = true;
   bool model_slopes = true;
 };

@@ -11,6 +11,8 @@ namespace {
 
 // Difference of the light on two sides, smoothed over about a photograph's blur.
 constexpr std::array<double, 4> kRise = {-0.25, -0.5, 0.5, 0.25};
+constexpr double kOwnVariance = 0.65;  // rows^2: what pixel box, interpolation and kRise add to a step's width
+constexpr double kLeastBlur = 0.4;     // px; sharper photographs are undersampled
 constexpr int kFlank = 2;   // rows from a step to where its width is judged
 constexpr int kBeyond = 3;  // rows from a sharp step to where it is over
 
@@ -149,6 +151,7 @@ StepMap FindSteps(const StraightBand& band, const StationLayout& layout, int bac
   FindHeights(band, map);
   map.background_response = BackgroundResponse(map, background_row);
   const double sharp_variance = SharpVariance(map);
+  map.blur_px = std::sqrt(std::max(sharp_variance - kOwnVariance, kLeastBlur * kLeastBlur));
   ForEachPlace(map, 0, [&](int station, int row) {
     const Place place(map, station, row);
     map.clear[map.At(station, row)] =
