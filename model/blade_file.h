@@ -16,13 +16,15 @@ namespace bladecurve {
 struct BladeFile {
   std::string name;
   BladeCurve curve;
-  std::string status = "ok";          // "ok" or "review"
-  std::vector<std::string> warnings;  // stable codes
+  std::string status = "ok";               // "ok" or "review"
+  std::vector<std::string> warnings = {};  // stable codes
   // One for each of ParameterNames(curve.shape()), in its units; NaN: unknown.
-  std::vector<double> standard_errors;
+  std::vector<double> standard_errors = {};
   // Of the same parameters, row by row; NaN where unknown, empty if the file has none (a plugin).
-  std::vector<double> covariance;
+  std::vector<double> covariance = {};
   double fit_rms_mm = std::numeric_limits<double>::quiet_NaN();
+  // Of the .blade.json that a plugin was made from, hexadecimal; "" if unknown.
+  std::string source_sha256 = {};
 };
 
 // "a_mm", "b", "gain", or "c0_mm", "c1_mm", ...: the shape's numbers that a fit estimates.

@@ -230,7 +230,7 @@ BladeFile BladeFileOfJson(const Json& record) {
     Complain("the file", "is " + Shown(record) + "; it must be a JSON object");
   CheckFormat(record);
   const std::string status = StatusOfJson(record);
-  BladeFile blade = {Word(Need(record, "name"), "name"), CurveOfJson(record), status, {}, {}, {}};
+  BladeFile blade = {Word(Need(record, "name"), "name"), CurveOfJson(record), status};
   const std::vector<std::string> names = ParameterNames(blade.curve.shape());
   if (Has(record, "warnings")) blade.warnings = Words(record["warnings"], "warnings");
   if (Has(record, "covariance")) blade.covariance = CovarianceOfJson(record, names);

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
 #include "model/plugin_parts.h"
@@ -74,7 +75,7 @@ std::vector<double> KnownOrMinusOne(const std::vector<double>& errors, std::size
   return known;
 }
 
-std::string TableText(const BladeFile& blade, std::string_view source_sha256) {
+std::string TableText(const BladeFile& blade) {
   const auto* spline = std::get_if<RigidSpline>(&blade.curve.shape());
   const CurveDomain& domain = blade.curve.domain();
   const double rms = blade.fit_rms_mm >= 0 ? blade.fit_rms_mm : -1.0;
@@ -82,7 +83,7 @@ std::string TableText(const BladeFile& blade, std::string_view source_sha256) {
          "  BLADECURVE_PLUGIN_VERSION,\n"
          "  sizeof(bladecurve_plugin),\n" +
          Field("id", Literal(blade.name)) + Field("units", "\"mm,rad\"") +
-         Field("source_sha256", Literal(source_sha256)) +
+         Field("source_sha256", Literal(blade.source_sha256)) +
          Field("family", spline ? "\"rigid-spline\"" : "\"tapered-rectangle\"") +
          Field("degree", std::to_string(spline ? spline->degree : 0)) +
          Field("num_knots", std::to_string(spline ? spline->knots_mm.size() : 0)) +
@@ -96,7 +97,7 @@ std::string TableText(const BladeFile& blade, std::string_view source_sha256) {
          "  bladecurve_eval,\n  bladecurve_eval_n,\n  bladecurve_contacts,\n};\n\n";
 }
 
-std::string DataText(const BladeFile& blade, std::string_view source_sha256) {
+std::string DataText(const BladeFile& blade) {
   const BladeShape& shape = blade.curve.shape();
   const auto prepared = PrepareBlade(shape, blade.curve.domain());
   const auto* spline = std::get_if<RigidSpline>(&shape);
@@ -108,7 +109,7 @@ std::string DataText(const BladeFile& blade, std::string_view source_sha256) {
          ArrayText("double kParameters", values) +
          ArrayText("double kStandardErrors",
                    KnownOrMinusOne(blade.standard_errors, values.size())) +
-         TableText(blade, source_sha256);
+         TableText(blade);
 }
 
 // A part without its lines that include other parts: they stand above it.
@@ -126,12 +127,12 @@ std::string PartText(const PluginPart& part) {
 
 }  // namespace
 
-std::string PluginSource(const BladeFile& blade, std::string_view source_sha256) {
+std::string PluginSource(const BladeFile& blade) {
   std::string text =
       "/* A blade curve as a C plugin, written by bladecurve export. For the same bits as the\n"
       " * library's: cc -std=c99 -O2 -ffp-contract=off -fPIC -shared FILE.c -o FILE.so -lm */\n\n";
   for (const PluginPart& part : kPluginParts) {
-    if (part.name == "plugin_body.c") text += DataText(blade, source_sha256);
+    if (part.name == "plugin_body.c") text += DataText(blade);
     text += PartText(part);
   }
   return text;

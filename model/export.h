@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <string>
-#include <string_view>
 
 #include "model/blade_file.h"
 
@@ -12,8 +11,7 @@ namespace bladecurve {
 
 // The blade as one C99 file that needs <math.h> alone and implements blade_plugin.h. Compiled with
 // -ffp-contract=off its values equal BladeCurve's to the last bit; it is C++ as well.
-// `source_sha256`: of the file the blade was read from, 64 hexadecimal digits, or "".
-[[nodiscard]] std::string PluginSource(const BladeFile& blade, std::string_view source_sha256);
+[[nodiscard]] std::string PluginSource(const BladeFile& blade);
 
 // Compiles such a text into a shared library by the system's C compiler: $CC, else cc. The library
 // appears under its name only when it is complete. Throws std::runtime_error where there is no

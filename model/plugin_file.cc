@@ -110,10 +110,11 @@ BladeFile ReadPluginFile(const std::filesystem::path& path) {
   BladeCurve curve(Shape(table),
                    {table.x_min_mm, table.x_max_mm, table.theta_min_rad, table.theta_max_rad});
   CheckValues(table, curve);
-  BladeFile blade = {table.id, std::move(curve), "ok", {}, {}, {}};
+  BladeFile blade = {table.id, std::move(curve)};
   blade.standard_errors =
       KnownOrNan(Numbers(table.standard_errors, table.num_parameters, "standard errors"));
   blade.fit_rms_mm = KnownOrNan({table.fit_rms_mm}).front();
+  blade.source_sha256 = table.source_sha256 ? table.source_sha256 : "";
   return blade;
 }
 
