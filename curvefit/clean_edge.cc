@@ -183,7 +183,8 @@ void Widen(const Cleaning& c,
   chi2 /= edge.inflation * edge.inflation;
   if (chi2 > ChiSquareQuantile(freedom, 0.999)) report.sigma_scale = std::sqrt(chi2 / freedom);
   const double said = edge.inflation * edge.inflation;
-  const double seen = CorrelatedNeighbours(kept);
+  // Scatter smaller than stated makes up for correlation: the sigma of a mean is what counts.
+  const double seen = CorrelatedNeighbours(kept) * std::min(1.0, chi2 / freedom);
   // The estimate scatters by about 3 / sqrt(samples); a quarter of percent of good edges exceed
   // this.
   const double beyond_doubt = 1 + 8 / std::sqrt(edge.effective());

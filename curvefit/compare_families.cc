@@ -16,19 +16,6 @@ double At(double low, double high, int i, int count) {
   return low + (high - low) * i / (count - 1);
 }
 
-// phi_theta/phi_x at the crack tip of a thin plate: the last place where the edge crosses the axis
-// rising.
-std::optional<double> ThinPlateTorque(const BladeCurve& curve, double theta_rad) {
-  constexpr size_t kMost = 8;
-  std::array<double, kMost> contacts{};
-  const int found = curve.Contacts(0, theta_rad, contacts);
-  for (int i = std::min(found, static_cast<int>(kMost)) - 1; i >= 0; --i) {
-    const CurveSample s = curve.Eval(contacts[i], theta_rad);
-    if (s.phi_x > 0 && s.phi_theta_mm_per_rad > 0) return s.phi_theta_mm_per_rad / s.phi_x;
-  }
-  return std::nullopt;
-}
-
 struct PlaceOfDifference {
   double mm = 0, x_mm = 0;
 };
@@ -44,6 +31,20 @@ PlaceOfDifference LargestAt(const BladeCurve& a, const BladeCurve& b, double the
 }
 
 }  // namespace
+
+// phi_theta/phi_x at the crack tip of a thin plate: the last place where the edge crosses the axis
+// rising.
+std::optional<double> ThinPlateTorque(const BladeCurve& curve, double theta_rad) {
+  constexpr size_t kMost = 8;
+  std::array<double, kMost> contacts{};
+  const int found = curve.Contacts(0, theta_rad, contacts);
+  for (int i = std::min(found, static_cast<int>(kMost)) - 1; i >= 0; --i) {
+    const CurveSample s = curve.Eval(contacts[i], theta_rad);
+    // Of several crossings the last: the crack has passed the others.
+    if (s.phi_x > 0 && s.phi_theta_mm_per_rad > 0) return s.phi_theta_mm_per_rad / s.phi_x;
+  }
+  return std::nullopt;
+}
 
 FamilyDifference CompareFamilies(const BladeCurve& a, const BladeCurve& b) {
   FamilyDifference difference;

@@ -21,7 +21,8 @@ class ShapeRows {
  public:
   ShapeRows(const JointModel& model, const JointState& state) : model_(model), state_(state) {
     if (!model.space) return;
-    coefficients_ = CoefficientsOf(*model.space, state.shape.data(), state.reach, state.zero).value;
+    coefficients_ =
+        CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
   }
   [[nodiscard]] int columns() const { return model_.space ? model_.space->size() : 2; }
   [[nodiscard]] ShapeRow At(const EdgeSamples& edge, int i, const Pose& pose) const {

@@ -120,9 +120,13 @@ void RecordEstimate(const JointEstimate& joint,
   }
 }
 
-std::vector<std::string> JointNames(std::vector<std::string> names, const FitData& data) {
-  names.emplace_back("reach_mm");
-  if (data.theta_given()) names.emplace_back("theta_zero_rad");
+std::vector<std::string> JointNames(std::vector<std::string> names,
+                                    const FitData& data,
+                                    const JointEstimate& joint) {
+  const size_t reaches = joint.num_reaches;
+  for (size_t i = 0; i < reaches; ++i) names.emplace_back("reach_mm");
+  const auto first_pose = static_cast<size_t>(joint.first_pose);
+  while (names.size() < first_pose) names.emplace_back("theta_zero_rad");
   for (size_t p = 0; p < data.photos.size(); ++p) {
     for (const char* name :
          {"pivot_x_mm", "pivot_y_mm", "upper_rad", "lower_rad", "scale", "offset_mm"}) {
@@ -138,7 +142,7 @@ void Record(const FamilyInput& input,
             const JointEstimate& joint,
             const std::vector<std::string>& names,
             FamilyFit& fit) {
-  const std::vector<std::string> all = JointNames(names, input.data);
+  const std::vector<std::string> all = JointNames(names, input.data, joint);
   fit.num_parameters = static_cast<int>(all.size());
   fit.freedom = Freedom(input.data, model, all.size());
   RecordMinimizer(attempt.result.minimizer, fit);
@@ -199,7 +203,8 @@ FamilyFit FitSpline(const FamilyInput& input,
   const Attempt attempt = SolveHonestly(input, model, start, fit);
   const JointState& state = attempt.result.state;
   const JointEstimate joint = EstimateJointly(attempt.data, model, state);
-  const SplineCoefficients c = CoefficientsOf(space, state.shape.data(), state.reach, state.zero);
+  const SplineCoefficients c =
+      CoefficientsOf(space, state.shape.data(), state.reaches[0], state.zeros[0]);
   const double length_mm = attempt.data.length_mm;
   fit.curve = BladeCurve(InMm(space, c.value, length_mm), input.domain);
   fit.covariance = SplineCovariance(joint, c, attempt.data.theta_given(), length_mm);
@@ -222,7 +227,7 @@ FamilyFit FitTapered(const FamilyInput& input, const std::optional<double>& gain
     const JointEstimate joint = EstimateJointly(input.data, model, start);
     names.emplace_back("gain");
     if (!joint.estimate.undetermined.empty()) {
-      RecordEstimate(joint, JointNames(names, input.data), fit);
+      RecordEstimate(joint, JointNames(names, input.data, joint), fit);
       fit.limits.emplace_back("gain: held at 1/2, photographs at one angle do not determine it");
       model.free_gain = false;
       names.pop_back();

@@ -87,13 +87,17 @@ std::vector<FlatPoint> FlatUpperEdges(const FitData& data) {
   return all;
 }
 
+double Farthest(const std::vector<double>& reaches) {
+  return *std::max_element(reaches.begin(), reaches.end());
+}
+
 KnotChoice ChooseSpace(const FitData& data, const FitData& thin, const FitOptions& options) {
   const std::vector<FlatPoint> points = FlatUpperEdges(thin);
   KnotRequest request;
   request.degree = options.degree;
   request.num_spans = options.num_spans;
   request.lower = points.front().u;
-  request.upper = std::max(points.back().u, StartingState(data).reach);
+  request.upper = std::max(points.back().u, Farthest(StartingState(data).reaches));
   if (options.knots_mm) {
     request.interior.emplace();
     for (const double k : *options.knots_mm) {
@@ -121,14 +125,19 @@ void CutLowerEdges(const SplineSpace& space, FitData& data) {
   }
 }
 
-void ApplyVerdict(const MirrorVerdict& verdict, FitData& data, BladeFit& report) {
+std::vector<bool> ApplyVerdicts(const std::vector<MirrorVerdict>& verdicts,
+                                FitData& data,
+                                BladeFit& report) {
   for (EdgeFinding& edge : report.edges) {
     if (edge.is_upper) continue;
     const auto p = static_cast<size_t>(edge.photo);
-    edge.used = verdict.use[p];
-    edge.sigma_scale *= verdict.sigma_scale[p];
-    for (double& w : data.photos[p].lower.weights) w /= verdict.sigma_scale[p];
+    edge.used = verdicts[p].use;
+    edge.sigma_scale *= verdicts[p].sigma_scale;
+    for (double& w : data.photos[p].lower.weights) w /= verdicts[p].sigma_scale;
   }
+  std::vector<bool> use;
+  for (const MirrorVerdict& verdict : verdicts) use.push_back(verdict.use);
+  return use;
 }
 
 // x from the first free edge point, at the widest photographed angle, to the last one's reach when
@@ -153,12 +162,6 @@ CurveDomain DomainOf(const FitData& data, const SplineSpace& space) {
   return domain;
 }
 
-JointState SplineStart(const FitData& data, const LinearSpline& spline) {
-  JointState start = StartingState(data);
-  start.shape = ParametersOf(spline.space, spline.coefficients, start.reach, start.zero).free;
-  return start;
-}
-
 void CountRejected(const BladeFit& report, FamilyFit& fit) {
   for (const RejectedPoint& point : report.rejected) fit.points += point.is_upper ? 1 : 0;
 }
@@ -176,12 +179,13 @@ BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& optio
   const KnotChoice choice = ChooseSpace(data, ThinnedData(data), options);
   const SplineSpace& space = choice.spline.space;
   CutLowerEdges(space, data);
-  const MirrorVerdict verdict =
-      JudgeMirror(ThinnedData(data), space, loss, SplineStart(data, choice.spline));
-  ApplyVerdict(verdict, data, report);
+  const std::vector<MirrorVerdict> verdicts = JudgeMirrors(ThinnedData(data), choice.spline, loss);
+  const std::vector<bool> mirror = ApplyVerdicts(verdicts, data, report);
 
-  const FamilyInput input{data, verdict.use, DomainOf(data, space)};
-  FamilyFit spline = FitSpline(input, space, verdict.state, loss);
+  const FamilyInput input{data, mirror, DomainOf(data, space)};
+  const JointResult rough = SolveJointly(
+      ThinnedData(data), {space, false, loss, mirror}, SplineStart(data, choice.spline));
+  FamilyFit spline = FitSpline(input, space, rough.state, loss);
   if (choice.limited_by_data)
     spline.limits.emplace_back("knots: fewer than asked for, the points support no more");
   FamilyFit tapered = FitTapered(input, options.gain);

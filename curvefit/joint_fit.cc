@@ -4,11 +4,25 @@
 
 #include <ceres/problem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 namespace bladecurve {
 namespace {
+
+// Reaches, then zeros: those that the model has.
+std::vector<double*> EndBlocks(const FitData& data, const JointModel& model, JointState& state) {
+  std::vector<double*> blocks;
+  const size_t count = model.space ? 1 : data.photos.size();
+  for (size_t p = 0; p < count; ++p) blocks.push_back(&state.reaches[p]);
+  for (size_t p = 0; p < count; ++p) {
+    const bool given = model.space ? data.theta_given() : data.photos[p].theta_given;
+    if (given) blocks.push_back(&state.zeros[p]);
+  }
+  return blocks;
+}
 
 // The problem refers to the parameters in `state`, which must stay where it is.
 std::unique_ptr<ceres::Problem> NewProblem(const FitData& data,
@@ -18,19 +32,24 @@ std::unique_ptr<ceres::Problem> NewProblem(const FitData& data,
   for (size_t p = 0; p < data.photos.size(); ++p) {
     const PhotoData& photo = data.photos[p];
     double* pose = state.poses[p].data();
+    double* reach = &state.reaches[model.space ? 0 : p];
+    double* zero = &state.zeros[model.space ? 0 : p];
     if (model.space) {
       problem->AddResidualBlock(NewSplineEdges(photo, *model.space, model.loss, model.mirror[p]),
                                 nullptr,
-                                {state.shape.data(), &state.reach, &state.zero, pose});
+                                {state.shape.data(), reach, zero, pose});
     } else {
       problem->AddResidualBlock(NewTaperedEdges(photo, model.mirror[p]),
                                 nullptr,
                                 {state.shape.data(), &state.gain, pose});
     }
-    problem->AddResidualBlock(
-        NewPoseObservations(photo), nullptr, {&state.reach, &state.zero, pose});
+    problem->AddResidualBlock(NewPoseObservations(photo), nullptr, {reach, zero, pose});
   }
-  if (!data.theta_given()) problem->SetParameterBlockConstant(&state.zero);
+  const std::vector<double*> free = EndBlocks(data, model, state);
+  for (double& zero : state.zeros) {
+    const bool is_free = std::find(free.begin(), free.end(), &zero) != free.end();
+    if (!is_free && problem->HasParameterBlock(&zero)) problem->SetParameterBlockConstant(&zero);
+  }
   if (!model.space && !model.free_gain) problem->SetParameterBlockConstant(&state.gain);
   return problem;
 }
@@ -50,29 +69,33 @@ JointEstimate EstimateJointly(const FitData& data, const JointModel& model, Join
   const std::unique_ptr<ceres::Problem> problem = NewProblem(data, model, state);
   std::vector<double*> blocks = {state.shape.data()};
   if (HasGain(model)) blocks.push_back(&state.gain);
-  blocks.push_back(&state.reach);
-  if (data.theta_given()) blocks.push_back(&state.zero);
+  const std::vector<double*> ends = EndBlocks(data, model, state);
+  blocks.insert(blocks.end(), ends.begin(), ends.end());
   for (Pose& pose : state.poses) blocks.push_back(pose.data());
-  JointEstimate joint{EstimateFrom(JacobianBy(*problem, blocks)), 0, 0};
+  JointEstimate joint{EstimateFrom(JacobianBy(*problem, blocks))};
   joint.shape_columns = static_cast<Eigen::Index>(state.shape.size()) + (HasGain(model) ? 1 : 0);
-  joint.first_pose = joint.shape_columns + 1 + (data.theta_given() ? 1 : 0);
+  joint.num_reaches = model.space ? 1 : data.photos.size();
+  joint.first_pose = joint.shape_columns + static_cast<Eigen::Index>(ends.size());
   return joint;
 }
 
 JointState StartingState(const FitData& data) {
   JointState state;
-  double reach = 0, zero = 0, given = 0;
   for (const PhotoData& photo : data.photos) {
     state.poses.push_back(photo.start);
-    reach += photo.upper_end.norm();
-    if (!photo.theta_given) continue;
+    state.reaches.push_back(photo.upper_end.norm());
     const double ray = std::atan2(photo.upper_end.y(), photo.upper_end.x());
-    zero += 2 * std::remainder(photo.start[kUpperAngle] - ray, 2 * std::acos(-1.0));
-    ++given;
+    const double turn = std::remainder(photo.start[kUpperAngle] - ray, 2 * std::numbers::pi);
+    state.zeros.push_back(photo.theta_given ? 2 * turn : 0);
   }
-  state.reach = reach / static_cast<double>(data.photos.size());
-  state.zero = given > 0 ? zero / given : 0;
   return state;
+}
+
+JointState SplineStart(const FitData& data, const LinearSpline& spline) {
+  JointState start = StartingState(data);
+  start.shape =
+      ParametersOf(spline.space, spline.coefficients, start.reaches[0], start.zeros[0]).free;
+  return start;
 }
 
 std::vector<double> Distances(const EdgeSamples& edge,
@@ -84,7 +107,7 @@ std::vector<double> Distances(const EdgeSamples& edge,
   distances.reserve(edge.points.size());
   if (model.space) {
     const Eigen::VectorXd c =
-        CoefficientsOf(*model.space, state.shape.data(), state.reach, state.zero).value;
+        CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
     for (const Eigen::Vector2d& point : edge.points) {
       const Eigen::Vector2d p = ToBladeFrame(pose, point, is_upper);
       distances.push_back(DistanceFrom(*model.space, c.data(), p).d + pose[kOffset]);

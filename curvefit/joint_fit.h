@@ -9,6 +9,7 @@
 #include "curvefit/bspline.h"
 #include "curvefit/fit.h"
 #include "curvefit/fit_data.h"
+#include "curvefit/linear_spline.h"
 #include "curvefit/minimize.h"
 #include "curvefit/residuals.h"
 
@@ -26,8 +27,10 @@ struct JointModel {
 struct JointState {
   std::vector<double> shape;  // free coefficients of the spline, or a and b
   double gain = 0.5;          // of the tapered form
-  double reach = 1;           // pivot to upper distal end
-  double zero = 0;            // opening that a given theta has where ours is 0
+  // Pivot to upper distal end, and the opening that a given theta has where ours is 0. A rigid turn
+  // has one of each for all photographs. In the tapered form the ends do not turn as theta says:
+  // each photograph has its own.
+  std::vector<double> reaches, zeros;
   std::vector<Pose> poses;
 };
 
@@ -41,10 +44,11 @@ struct JointResult {
                                        const JointModel& model,
                                        JointState start);
 
-// Columns: shape, gain if free, reach, zero if a theta was given, poses.
+// Columns: shape, gain if free, reaches, zeros of given thetas, poses.
 struct JointEstimate {
   Estimate estimate;
   Eigen::Index shape_columns = 0;  // shape and gain
+  size_t num_reaches = 1;
   Eigen::Index first_pose = 0;
 };
 [[nodiscard]] JointEstimate EstimateJointly(const FitData& data,
@@ -53,6 +57,9 @@ struct JointEstimate {
 
 // Poses and reach as the observed ends have them; no shape yet.
 [[nodiscard]] JointState StartingState(const FitData& data);
+
+// The same, with a spline that was fitted to the edges at these poses.
+[[nodiscard]] JointState SplineStart(const FitData& data, const LinearSpline& spline);
 
 // Signed orthogonal distances of one edge from the curve, offset taken off, without a unit.
 [[nodiscard]] std::vector<double> Distances(const EdgeSamples& edge,

@@ -36,74 +36,53 @@ Comparison Compare(const PhotoData& photo,
           std::sqrt(squares / photo.lower.size())};
 }
 
-void Widen(double scale, EdgeSamples& edge) {
-  for (double& w : edge.weights) w /= scale;
-}
-
-// One round: the lower edges that cost too much get larger sigmas, or are left out. False if
-// nothing changed.
-bool Adjust(double rest_per_edge, const JointModel& model, FitData& data, MirrorVerdict& verdict) {
-  const double coefficients = model.space->size();
-  bool changed = false;
-  for (size_t p = 0; p < data.photos.size(); ++p) {
-    if (!verdict.use[p]) continue;
-    const Comparison c = Compare(data.photos[p], model, verdict.state, verdict.state.poses[p]);
-    const double excess = c.excess + rest_per_edge;
-    if (c.rms > kOwnShape) {
-      verdict.use[p] = false;
-      changed = true;
-    } else if (excess > ChiSquareQuantile(coefficients, kDoubt)) {
-      const double scale = std::sqrt(excess / coefficients);
-      Widen(scale, data.photos[p].lower);
-      verdict.sigma_scale[p] *= scale;
-      changed = true;
-    }
-  }
-  return changed;
-}
-
-// What the lower edges cost elsewhere: how far they pull upper edges and poses from where these
-// would be alone.
-double CostElsewhere(const JointModel& model,
-                     const FitData& data,
+// What the lower edge costs elsewhere: how far it pulls upper edge and pose from where these are
+// without it.
+double CostElsewhere(const PhotoData& photo,
+                     const JointModel& model,
                      const JointResult& with,
-                     double alone) {
-  double elsewhere = 2 * (with.minimizer.cost - alone);
-  for (size_t p = 0; p < data.photos.size(); ++p) {
-    if (!model.mirror[p]) continue;
-    const Pose& pose = with.state.poses[p];
-    const EdgeSamples& lower = data.photos[p].lower;
-    elsewhere -= Chi2(lower, Distances(lower, false, model, with.state, pose));
+                     double cost_without) {
+  const std::vector<double> d =
+      Distances(photo.lower, false, model, with.state, with.state.poses[0]);
+  const double chi2 = 2 * (with.minimizer.cost - cost_without) - Chi2(photo.lower, d);
+  return std::max(0.0, chi2);
+}
+
+MirrorVerdict JudgePhoto(FitData data, const SplineSpace& space, Loss loss, JointState start) {
+  MirrorVerdict verdict;
+  PhotoData& photo = data.photos[0];
+  if (photo.lower.size() < 3) return verdict;
+  JointModel model{space, false, loss, {false}};
+  JointResult result = SolveJointly(data, model, std::move(start));
+  const double cost_without = result.minimizer.cost;
+  const double coefficients = space.size();
+  model.mirror = {true};
+  verdict.use = true;
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    result = SolveJointly(data, model, result.state);
+    const Comparison c = Compare(photo, model, result.state, result.state.poses[0]);
+    const double excess = c.excess + CostElsewhere(photo, model, result, cost_without);
+    verdict.use = c.rms <= kOwnShape;
+    if (!verdict.use || excess <= ChiSquareQuantile(coefficients, kDoubt)) break;
+    const double scale = std::sqrt(excess / coefficients);
+    verdict.sigma_scale *= scale;
+    for (double& w : photo.lower.weights) w /= scale;
   }
-  return std::max(0.0, elsewhere);
+  return verdict;
 }
 
 }  // namespace
 
-MirrorVerdict JudgeMirror(const FitData& given,
-                          const SplineSpace& space,
-                          Loss loss,
-                          const JointState& start) {
-  FitData data = given;
-  const size_t photos = data.photos.size();
-  MirrorVerdict verdict{std::vector<bool>(photos, false), std::vector<double>(photos, 1.0), {}};
-  JointModel model{space, false, loss, verdict.use};
-  const JointResult alone = SolveJointly(data, model, start);
-  verdict.state = alone.state;
-  double edges = 0;
-  for (size_t p = 0; p < photos; ++p) {
-    verdict.use[p] = data.photos[p].lower.size() >= 3;
-    edges += verdict.use[p] ? 1 : 0;
+std::vector<MirrorVerdict> JudgeMirrors(const FitData& data,
+                                        const LinearSpline& spline,
+                                        Loss loss) {
+  std::vector<MirrorVerdict> verdicts;
+  for (const PhotoData& photo : data.photos) {
+    const FitData alone{data.length_mm, {photo}};
+    verdicts.push_back(JudgePhoto(alone, spline.space, loss, SplineStart(alone, spline)));
   }
-  constexpr int kRounds = 6;
-  for (int round = 0; edges > 0 && round < kRounds; ++round) {
-    model.mirror = verdict.use;
-    const JointResult with = SolveJointly(data, model, verdict.state);
-    verdict.state = with.state;
-    const double elsewhere = CostElsewhere(model, data, with, alone.minimizer.cost);
-    if (!Adjust(elsewhere / edges, model, data, verdict)) break;
-  }
-  return verdict;
+  return verdicts;
 }
 
 }  // namespace bladecurve

@@ -6,24 +6,23 @@
 
 #include "curvefit/fit_data.h"
 #include "curvefit/joint_fit.h"
+#include "curvefit/linear_spline.h"
 
 namespace bladecurve {
 
-// How far the lower edges may be taken for mirror images of the upper ones.
+// How far the lower edge of a photograph may be taken for the mirror image of its upper one.
 struct MirrorVerdict {
-  std::vector<bool> use;  // by photograph
-  std::vector<double>
-      sigma_scale;   // its lower edge's sigmas times this hold the difference between the blades
-  JointState state;  // the fit that goes with it
+  bool use = false;
+  double sigma_scale =
+      1;  // the lower edge's sigmas times this hold the difference between the blades
 };
 
-// The upper edge is never at stake: where the blades differ (parallax, sheen, a blade ground
-// differently) the lower edge's sigmas grow until the difference is as likely as noise; where they
-// differ by more than a hundredth of the blade's length, the lower blade has a shape of its own and
-// only its distal end counts.
-[[nodiscard]] MirrorVerdict JudgeMirror(const FitData& data,
-                                        const SplineSpace& space,
-                                        Loss loss,
-                                        const JointState& start);
+// One verdict a photograph, each by itself. The upper edge is never at stake: where the blades
+// differ (parallax, sheen, a blade ground differently) the lower edge's sigmas grow until the
+// difference is as likely as noise; where they differ by more than a hundredth of the blade's
+// length, the lower blade has a shape of its own and only its distal end counts.
+[[nodiscard]] std::vector<MirrorVerdict> JudgeMirrors(const FitData& data,
+                                                      const LinearSpline& spline,
+                                                      Loss loss);
 
 }  // namespace bladecurve
