@@ -14,37 +14,42 @@ namespace bladecurve {
 // Roughly where an edge runs, as scene finding knows it: a few px, sometimes ten, off.
 struct EdgeGuess {
   std::vector<Eigen::Vector2d> path_px;  // polyline in stored pixels, from crotch to distal end
-  bool blade_on_left = true;             // side of the blade, walking along the path, y down: left is at (dy, -dx)
-  double search_px = 6;                  // how far across the path the edge may lie
+  bool blade_on_left =
+      true;              // side of the blade, walking along the path, y down: left is at (dy, -dx)
+  double search_px = 6;  // how far across the path the edge may lie
 };
 
 struct EdgeOptions {
-  double step_px = 1.0;              // spacing of the points along the edge
-  double outlier_sigmas = 4.0;       // a point further from the local edge than this is a glint, nick or dirt
-  bool correct_curvature = true;     // bias -(sigma^2 + 1/12)/(2R)
+  double step_px = 1.0;  // spacing of the points along the edge
+  double outlier_sigmas =
+      4.0;  // a point further from the local edge than this is a glint, nick or dirt
+  bool correct_curvature = true;       // bias -(sigma^2 + 1/12)/(2R)
   bool model_background_slope = true;  // shadows: grey values may slope on either side
 };
 
 struct LocatedEdgePoint {
-  Eigen::Vector2d point_px;
-  Eigen::Vector2d normal;   // unit, out of the blade
-  double sigma_px = 0;      // of this point by itself, along the normal
-  double contrast = 0;      // background minus blade, linear light
+  Eigen::Vector2d point_px;  // from the pixels nearest to it alone: for fitting
+  Eigen::Vector2d trend_px;  // from some 50 px of edge about it: for showing
+  Eigen::Vector2d normal;    // unit, out of the blade
+  double sigma_px = 0;       // of this point by itself, along the normal
+  double contrast = 0;       // background minus blade, linear light
   bool inlier = true;
 };
 
 struct LocatedEdge {
   std::vector<LocatedEdgePoint> points;  // ordered along the path; outliers stay, marked
-  double blur_px = std::numeric_limits<double>::quiet_NaN();         // Gaussian sigma of the edge, pixel box apart
-  double noise = std::numeric_limits<double>::quiet_NaN();           // of a pixel, linear light
-  double correlation_px = 0;             // neighbours closer than this are not independent
-  double common_sigma_px = 0;            // offset all points share: tone curve, ambiguity of bevel and shadow
-  double ambiguity = 0;                  // 0: one clear transition; towards 1: several about as good (bevel, shadow)
+  double blur_px =
+      std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma of the edge, pixel box apart
+  double noise = std::numeric_limits<double>::quiet_NaN();  // of a pixel, linear light
+  double correlation_px = 0;   // neighbours closer than this are not independent
+  double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow
+  double ambiguity =
+      0;  // 0: one clear transition; towards 1: several about as good (bevel, shadow)
 };
 
-// Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw pixels in a narrow
-// band. Of several transitions (bevel line, glint, shadow border) it takes the blade's outer border.
-// Throws Refused{kLowContrast, kBlurred, kEdgeTooShort}.
+// Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw
+// pixels in a narrow band. Of several transitions (bevel line, glint, shadow border) it takes the
+// blade's outer border. Throws Refused{kLowContrast, kBlurred, kEdgeTooShort}.
 [[nodiscard]] LocatedEdge LocateEdge(const cv::Mat& grey,
                                      const ToneCurve& tone,
                                      const EdgeGuess& guess,

@@ -17,7 +17,7 @@ namespace {
 constexpr double kBackgroundPx = 10;  // seen beyond the search range, to know the background
 constexpr double kBladePx = 8;        // the same inwards
 constexpr float kForbidden = -1;      // score of a place where the edge cannot be
-constexpr float kLooseBend = 0.15F;  // the guess wanders about the edge by a row every few stations
+constexpr float kLooseBend = 0.25F;  // the guess wanders about the edge by a row every few stations
 constexpr float kStiffBend =
     0.5F;  // once straightened, it takes two clear stations to leave a line
 
@@ -91,8 +91,9 @@ std::vector<float> Scores(const Survey& survey,
 // The guess wanders about the edge; along any line that runs with the blade the picture can be
 // averaged over more columns. The clearest line serves, whichever it is.
 Survey Straightened(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  constexpr double kStiffness = 30;  // stations; the line's own wiggles are not the guess's
-  constexpr double kSmoothing = 3;   // px
+  constexpr double kStiffness =
+      400;                          // bends within 25 stations are the line's own, not the guess's
+  constexpr double kSmoothing = 3;  // px
   const Survey rough = Take(grey, guess, {}, search_px, {4, 4});
   const std::vector<float> scores = Scores(rough, [&](int station, int row) {
     return std::abs(rough.Across(row)) <= search_px ? rough.map.clear[rough.map.At(station, row)]

@@ -48,6 +48,7 @@ std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit,
     LocatedEdgePoint point;
     point.normal = fit.path.normals[middle];
     point.point_px = fit.path.points[middle] + offset / information * point.normal;
+    point.trend_px = fit.path.points[middle] + fit.trend_px[middle] * point.normal;
     point.sigma_px = 1 / std::sqrt(information);
     point.contrast = contrast / information;
     points.push_back(point);
