@@ -27,36 +27,13 @@ constexpr double kBinPx = 8;      // pieces along the edge that are kept or left
 
 struct Sample {
   double across, along;  // px from the middle of the guess
-  double grey;
+  double light;          // linear, 0 to 1
   int bin;
 };
 
-// Stored grey values from linear light, straight between the tone curve's 256 points and beyond its
-// ends.
-class Encoder {
- public:
-  struct Value {
-    double grey, grey_per_linear;
-  };
-  explicit Encoder(const ToneCurve& tone) : linear_(tone.linear) {
-    size_t v = 1;
-    for (size_t k = 0; k < first_.size(); ++k) {
-      while (v < 255 && linear_[v] * kSlots < static_cast<float>(k)) ++v;
-      first_[k] = static_cast<uint8_t>(v);
-    }
-  }
-  [[nodiscard]] Value Encode(double linear) const {
-    size_t v = first_[static_cast<size_t>(std::clamp(linear * kSlots, 0.0, kSlots - 1.0))];
-    while (v < 255 && linear_[v] < linear) ++v;
-    const double low = linear_[v - 1];
-    const double slope = 1 / std::max(linear_[v] - low, 1e-9);
-    return {static_cast<double>(v - 1) + (linear - low) * slope, slope};
-  }
-
- private:
-  static constexpr int kSlots = 1024;
-  const std::array<float, 256>& linear_;
-  std::array<uint8_t, kSlots> first_{};  // where to begin looking, by linear light
+struct LinearPicture {
+  const cv::Mat& grey;
+  const ToneCurve& tone;
 };
 
 // The line of the guess, and the band about it.
@@ -83,7 +60,8 @@ double Sagitta(const Band& band, double along) {
 
 // The pixels of the band, column by column if it lies flat, row by row if it is steep. `stride`
 // thins them out.
-std::vector<Sample> Collect(const cv::Mat& grey, const Band& band, int stride) {
+std::vector<Sample> Collect(const LinearPicture& picture, const Band& band, int stride) {
+  const cv::Mat& grey = picture.grey;
   const int major = std::abs(band.direction.x()) >= std::abs(band.direction.y()) ? 0 : 1,
             minor = 1 - major;
   const std::array<int, 2> size = {grey.cols, grey.rows};
@@ -104,9 +82,11 @@ std::vector<Sample> Collect(const cv::Mat& grey, const Band& band, int stride) {
       const double along = offset.dot(band.direction);
       const double across = offset.dot(band.normal) - Sagitta(band, along);
       if (std::abs(along) > 0.5 * band.length || std::abs(across) > band.half_width) continue;
-      const double value = major == 0 ? grey.at<uchar>(b, a) : grey.at<uchar>(a, b);
-      samples.push_back(
-          {across, along, value, static_cast<int>((along + 0.5 * band.length) / kBinPx)});
+      const uchar value = major == 0 ? grey.at<uchar>(b, a) : grey.at<uchar>(a, b);
+      samples.push_back({across,
+                         along,
+                         picture.tone.linear[value],
+                         static_cast<int>((along + 0.5 * band.length) / kBinPx)});
     }
   }
   return samples;
@@ -117,7 +97,6 @@ size_t BinCount(const Band& band) { return static_cast<size_t>(band.length / kBi
 // Grey profile across the band, linear light, one value a pixel of distance, over part of its
 // length.
 std::vector<double> MeanProfile(const std::vector<Sample>& samples,
-                                const ToneCurve& tone,
                                 const Band& band,
                                 const std::array<double, 2>& part) {
   const size_t count = static_cast<size_t>(2 * band.half_width) + 1;
@@ -126,7 +105,7 @@ std::vector<double> MeanProfile(const std::vector<Sample>& samples,
     const double place = s.along / band.length + 0.5;
     if (place < part[0] || place > part[1]) continue;
     const size_t k = std::min(count - 1, static_cast<size_t>(s.across + band.half_width));
-    sum[k] += tone.linear[static_cast<size_t>(s.grey)];
+    sum[k] += s.light;
     weight[k] += 1;
   }
   for (size_t k = 0; k < count; ++k) sum[k] = weight[k] > 0 ? sum[k] / weight[k] : -1;
@@ -154,14 +133,12 @@ struct Fit {
 };
 
 // Offset and angle from the crossings in the parts of the edge, levels from the band's rims.
-std::optional<Vector> Start(const std::vector<Sample>& samples,
-                            const ToneCurve& tone,
-                            const Band& band) {
+std::optional<Vector> Start(const std::vector<Sample>& samples, const Band& band) {
   constexpr int kParts = 6;
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (int part = 0; part < kParts; ++part) {
     const double from = static_cast<double>(part) / kParts;
-    const auto profile = MeanProfile(samples, tone, band, {from, from + 1.0 / kParts});
+    const auto profile = MeanProfile(samples, band, {from, from + 1.0 / kParts});
     const std::optional<double> crossing = HalfLevelCrossing(profile, band.half_width);
     if (!crossing) continue;
     const double x = (from + 0.5 / kParts - 0.5) * band.length;
@@ -169,7 +146,7 @@ std::optional<Vector> Start(const std::vector<Sample>& samples,
   }
   if (n < 3) return std::nullopt;  // rejects edges hidden along more than half their length
   const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
-  const auto profile = MeanProfile(samples, tone, band, {0, 1});
+  const auto profile = MeanProfile(samples, band, {0, 1});
   Vector start = Vector::Zero();
   start[kOffset] = (sy - slope * sx) / n;
   start[kAngle] = std::atan(slope);
@@ -181,23 +158,21 @@ std::optional<Vector> Start(const std::vector<Sample>& samples,
 
 class EdgeModel {
  public:
-  EdgeModel(const Encoder& encoder, const Band& band, const Vector& p)
-      : encoder_(encoder),
-        p_(p),
+  EdgeModel(const Band& band, const Vector& p)
+      : p_(p),
         cos_(std::cos(p[kAngle])),
         sin_(std::sin(p[kAngle])),
         scale_(1 / band.length),
         profile_(std::atan2(band.normal.y(), band.normal.x()) + p[kAngle], p[kBlur]) {}
 
-  // Residual, stored grey minus model, and the model's derivatives. Saturated pixels say nothing
-  // more than that.
+  // Residual, light minus model, and the model's derivatives. A saturated pixel says no more than
+  // that it is bright.
   double Residual(const Sample& s, Vector* gradient) const {
     const double distance = s.across * cos_ - s.along * sin_ - p_[kOffset];
     const EdgeProfile::Value step = profile_.At(distance);
     const double light = p_[kDark] + p_[kContrast] * step.level;
     const double lamp = 1 + p_[kAcross] * distance * scale_ + p_[kAlong] * s.along * scale_;
-    const Encoder::Value model = encoder_.Encode(lamp * light);
-    if ((s.grey >= 255 && model.grey >= 255) || (s.grey <= 0 && model.grey <= 0)) {
+    if (s.light >= 1 && lamp * light >= 1) {
       gradient->setZero();
       return 0;
     }
@@ -205,12 +180,10 @@ class EdgeModel {
     *gradient << -edge, -edge * s.along, lamp, lamp * step.level,
         lamp * p_[kContrast] * p_[kBlur] * step.curvature_per_px2, light * distance * scale_,
         light * s.along * scale_;
-    *gradient *= model.grey_per_linear;
-    return s.grey - model.grey;
+    return s.light - lamp * light;
   }
 
  private:
-  const Encoder& encoder_;
   const Vector& p_;
   double cos_, sin_, scale_;
   EdgeProfile profile_;
@@ -223,10 +196,9 @@ struct NormalEquations {
 };
 
 NormalEquations Accumulate(const std::vector<Sample>& samples,
-                           const Encoder& encoder,
                            const Band& band,
                            const Vector& parameters) {
-  const EdgeModel model(encoder, band, parameters);
+  const EdgeModel model(band, parameters);
   NormalEquations equations;
   Vector derivative;
   for (const Sample& s : samples) {
@@ -242,11 +214,10 @@ NormalEquations Accumulate(const std::vector<Sample>& samples,
 // within a piece. Compression makes it stronger at the edge and alike in neighbours, so that s^2
 // (J'J)^-1 is up to five times too small.
 Matrix ClusteredCovariance(const std::vector<Sample>& samples,
-                           const Encoder& encoder,
                            const Band& band,
                            const Vector& parameters,
                            const Matrix& information) {
-  const EdgeModel model(encoder, band, parameters);
+  const EdgeModel model(band, parameters);
   std::vector<Vector> scores(BinCount(band), Vector::Zero());
   Vector derivative;
   for (const Sample& s : samples) {
@@ -272,13 +243,12 @@ bool Plausible(const Vector& p, const Band& band) {
 
 // Levenberg-Marquardt. std::nullopt if it leaves the band.
 std::optional<Fit> Refine(const std::vector<Sample>& samples,
-                          const Encoder& encoder,
                           const Band& band,
                           const Vector& start) {
   constexpr int kMaxSteps = 30;
   constexpr double kDonePx = 1e-5;
   Fit fit{start, Matrix::Zero(), 0, samples.size()};
-  NormalEquations now = Accumulate(samples, encoder, band, fit.parameters);
+  NormalEquations now = Accumulate(samples, band, fit.parameters);
   double damping = 1e-4;
   for (int step = 0; step < kMaxSteps; ++step) {
     Matrix damped = now.information;
@@ -287,7 +257,7 @@ std::optional<Fit> Refine(const std::vector<Sample>& samples,
     Vector next = fit.parameters + change;
     next[kBlur] = std::max(next[kBlur], kMinBlurPx);
     if (!Plausible(next, band)) return std::nullopt;
-    const NormalEquations there = Accumulate(samples, encoder, band, next);
+    const NormalEquations there = Accumulate(samples, band, next);
     if (there.sum_square > now.sum_square) {
       damping = std::max(10 * damping, 1e-3);
       if (damping > 1e6) break;
@@ -298,7 +268,7 @@ std::optional<Fit> Refine(const std::vector<Sample>& samples,
     damping *= 0.1;
     if (std::abs(change[kOffset]) + std::abs(change[kAngle]) * band.length < kDonePx) break;
   }
-  fit.covariance = ClusteredCovariance(samples, encoder, band, fit.parameters, now.information);
+  fit.covariance = ClusteredCovariance(samples, band, fit.parameters, now.information);
   fit.mean_square =
       now.sum_square / std::max(1.0, static_cast<double>(samples.size()) - kParameters);
   return fit;
@@ -307,7 +277,6 @@ std::optional<Fit> Refine(const std::vector<Sample>& samples,
 // Leaves out the pieces along the edge that fit much worse than the typical one: something lies
 // over them.
 std::vector<Sample> WithoutCovered(const std::vector<Sample>& samples,
-                                   const Encoder& encoder,
                                    const Band& band,
                                    const Vector& parameters) {
   // A piece holds some 60 pixels, so its mean square scatters by a fifth; four times the median
@@ -315,7 +284,7 @@ std::vector<Sample> WithoutCovered(const std::vector<Sample>& samples,
   constexpr double kWorse = 4;
   const size_t bins = BinCount(band);
   std::vector<double> square(bins, 0), count(bins, 0), typical;
-  const EdgeModel model(encoder, band, parameters);
+  const EdgeModel model(band, parameters);
   Vector derivative;
   for (const Sample& s : samples) {
     const double residual = model.Residual(s, &derivative);
@@ -327,8 +296,8 @@ std::vector<Sample> WithoutCovered(const std::vector<Sample>& samples,
   }
   std::nth_element(
       typical.begin(), typical.begin() + static_cast<long>(typical.size() / 2), typical.end());
-  // Rounding to whole grey values alone leaves 1/12.
-  const double limit = kWorse * std::max(typical[typical.size() / 2], 1.0 / 12);
+  // Rounding to whole grey values alone leaves a hundred thousandth.
+  const double limit = kWorse * std::max(typical[typical.size() / 2], 1e-6);
   std::vector<Sample> kept;
   for (const Sample& s : samples) {
     if (square[static_cast<size_t>(s.bin)] <= limit) kept.push_back(s);
@@ -358,14 +327,14 @@ StraightEdge Describe(const Fit& fit, const Band& band, double used) {
 std::optional<StraightEdge> LocateStraightEdge(const cv::Mat& grey,
                                                const ToneCurve& tone,
                                                const StraightEdgeGuess& guess) {
+  const LinearPicture picture{grey, tone};
   const Band wide = MakeBand(guess, std::min(guess.search_px + 4, std::max(guess.free_px, 2.5)));
   const int thin = std::max(1, static_cast<int>(wide.length / 60));
-  const std::vector<Sample> coarse = Collect(grey, wide, thin);
+  const std::vector<Sample> coarse = Collect(picture, wide, thin);
   if (coarse.size() < 3 * kParameters) return std::nullopt;
-  const std::optional<Vector> start = Start(coarse, tone, wide);
+  const std::optional<Vector> start = Start(coarse, wide);
   if (!start) return std::nullopt;
-  const Encoder encoder(tone);
-  const std::optional<Fit> rough = Refine(coarse, encoder, wide, *start);
+  const std::optional<Fit> rough = Refine(coarse, wide, *start);
   if (!rough) return std::nullopt;
   // The final band is as wide as the blur needs for its levels and no wider, along the line just
   // found.
@@ -378,13 +347,13 @@ std::optional<StraightEdge> LocateStraightEdge(const cv::Mat& grey,
       MakeBand(better, std::min(std::max(4.0, 5 * blur), std::max(guess.free_px, 2.0)));
   Vector parameters = rough->parameters;
   parameters[kOffset] = parameters[kAngle] = 0;
-  std::vector<Sample> samples = Collect(grey, band, 1);
+  std::vector<Sample> samples = Collect(picture, band, 1);
   const double all = static_cast<double>(samples.size());
-  std::optional<Fit> fit = Refine(samples, encoder, band, parameters);
+  std::optional<Fit> fit = Refine(samples, band, parameters);
   for (int pass = 0; pass < 2 && fit; ++pass) {
-    samples = WithoutCovered(samples, encoder, band, fit->parameters);
+    samples = WithoutCovered(samples, band, fit->parameters);
     if (samples.size() == fit->count) break;
-    fit = Refine(samples, encoder, band, fit->parameters);
+    fit = Refine(samples, band, fit->parameters);
   }
   if (!fit) return std::nullopt;
   return Describe(*fit, band, static_cast<double>(fit->count) / all);

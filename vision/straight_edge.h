@@ -28,7 +28,7 @@ struct StraightEdge {
   Eigen::Matrix2d
       covariance;      // of the offset along (-dy, dx), px, and of the direction's angle, rad
   double blur_px = 0;  // Gaussian sigma, pixel box apart
-  double noise = 0;    // rms of a pixel about the model, grey values
+  double noise = 0;    // rms of a pixel about the model, linear light
   double contrast =
       0;  // bright minus dark, linear light, signed: positive if bright lies along (-dy, dx)
   double used =

@@ -1,0 +1,353 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/sheet_pose.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <stdexcept>
+
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Corners = std::array<Vector2d, 4>;
+
+// Unknowns: the camera's, the pose's, the spread, then x, y and angle of each square that lies
+// anywhere but the first, which carries the sheet frame.
+enum Unknown : int { kLogFocal, kK1, kTurn, kPlace = 5, kSpread = 8, kSquares };
+
+// Share of a standard deviation by which poses are moved to see what lengths do: small, so that
+// they stay linear even where the focal length is hardly known.
+constexpr double kShift = 0.05;
+
+Corners SquareCorners(double side_mm) {
+  const double h = 0.5 * side_mm;
+  return {Vector2d(-h, h), Vector2d(h, h), Vector2d(h, -h), Vector2d(-h, -h)};
+}
+
+Vector2d Centre(const Corners& c) { return 0.25 * (c[0] + c[1] + c[2] + c[3]); }
+
+Matrix3d Rotation(const Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle < 1e-12) return Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+// What the unknowns are measured from. Turns are kept small, relative to a base pose.
+struct Base {
+  const SheetProblem& problem;
+  Matrix3d rotation;
+};
+
+bool LiesAnywhere(const SheetProblem& problem) { return !problem.squares.front().corners_mm; }
+
+SheetPose PoseOf(const Base& base, const VectorXd& x) {
+  SheetPose pose;
+  pose.camera = base.problem.knowledge.camera;
+  pose.camera.k(0, 0) *= std::exp(x[kLogFocal]);
+  pose.camera.k(1, 1) *= std::exp(x[kLogFocal]);
+  pose.camera.distortion[0] += x[kK1];
+  pose.camera_from_sheet = Rotation(x.segment<3>(kTurn)) * base.rotation;
+  // A longer focal length sees the same from further away; measured so, the two are nearly
+  // independent.
+  pose.sheet_in_camera_mm = std::exp(x[kLogFocal]) * x.segment<3>(kPlace);
+  return pose;
+}
+
+Vector2d Project(const SheetPose& pose, const Vector2d& sheet_mm) {
+  const Vector3d point = pose.camera_from_sheet.leftCols<2>() * sheet_mm + pose.sheet_in_camera_mm;
+  return Distorted(pose.camera, (pose.camera.k * point).hnormalized());
+}
+
+Corners CornersMm(const Base& base, const VectorXd& x, size_t square) {
+  const auto& known = base.problem.squares[square].corners_mm;
+  Corners corners = known ? *known : SquareCorners(base.problem.side_mm);
+  const Vector2d centre = Centre(corners);
+  const double growth = 1 + 2 * x[kSpread] / base.problem.side_mm;
+  for (Vector2d& corner : corners) corner = centre + growth * (corner - centre);
+  if (known || square == 0) return corners;
+  const Vector3d placed = x.segment<3>(kSquares + 3 * (static_cast<int>(square) - 1));
+  const Eigen::Rotation2Dd turn(placed.z());
+  for (Vector2d& corner : corners) corner = turn * corner + placed.head<2>();
+  return corners;
+}
+
+// Standard deviations of what is known beforehand; NaN where nothing is.
+VectorXd PriorSigmas(const SheetProblem& problem, int unknowns) {
+  VectorXd sigmas = VectorXd::Constant(unknowns, std::nan(""));
+  sigmas[kLogFocal] = problem.knowledge.log_focal_sigma;
+  sigmas[kK1] = problem.knowledge.k1_sigma;
+  sigmas[kSpread] = LiesAnywhere(problem) ? 0 : problem.spread_sigma_mm;
+  return sigmas;
+}
+
+// Whitened residuals: eight a square, then the deviations from what is known beforehand.
+VectorXd Residuals(const Base& base, const VectorXd& x) {
+  const SheetPose pose = PoseOf(base, x);
+  const std::vector<SquareObservation>& squares = base.problem.squares;
+  const VectorXd sigmas = PriorSigmas(base.problem, static_cast<int>(x.size()));
+  VectorXd residuals(static_cast<long>(8 * squares.size()) + kSquares);
+  long row = 0;
+  for (size_t i = 0; i < squares.size(); ++i) {
+    const Corners corners = CornersMm(base, x, i);
+    for (size_t k = 0; k < 4; ++k, row += 2) {
+      residuals.segment<2>(row) =
+          (Project(pose, corners[k]) - squares[i].corners_px[k]) / squares[i].sigma_px;
+    }
+  }
+  for (int i = 0; i < kSquares; ++i) residuals[row++] = sigmas[i] > 0 ? x[i] / sigmas[i] : 0;
+  return residuals;
+}
+
+std::vector<int> FreeUnknowns(const SheetProblem& problem, int unknowns) {
+  const VectorXd sigmas = PriorSigmas(problem, unknowns);
+  std::vector<int> free;
+  for (int i = 0; i < unknowns; ++i) {
+    if (sigmas[i] != 0) free.push_back(i);
+  }
+  return free;
+}
+
+MatrixXd Jacobian(const Base& base, const VectorXd& x, const std::vector<int>& free) {
+  MatrixXd jacobian(static_cast<long>(8 * base.problem.squares.size()) + kSquares,
+                    static_cast<long>(free.size()));
+  for (size_t c = 0; c < free.size(); ++c) {
+    const double step = 1e-6 * std::max(1.0, std::abs(x[free[c]]));
+    VectorXd plus = x, minus = x;
+    plus[free[c]] += step;
+    minus[free[c]] -= step;
+    jacobian.col(static_cast<long>(c)) =
+        (Residuals(base, plus) - Residuals(base, minus)) / (2 * step);
+  }
+  return jacobian;
+}
+
+struct Minimum {
+  Base base;
+  VectorXd x;
+  double cost = 0;  // sum of squares
+};
+
+// Levenberg-Marquardt from a start; the turn is folded into the base after every step.
+Minimum Minimise(Minimum at, const std::vector<int>& free) {
+  constexpr int kMaxSteps = 60;
+  double damping = 1e-3;
+  at.cost = Residuals(at.base, at.x).squaredNorm();
+  for (int step = 0; step < kMaxSteps && damping < 1e9; ++step) {
+    const MatrixXd jacobian = Jacobian(at.base, at.x, free);
+    MatrixXd normal = jacobian.transpose() * jacobian;
+    normal.diagonal() *= 1 + damping;
+    const VectorXd change = normal.ldlt().solve(-jacobian.transpose() * Residuals(at.base, at.x));
+    Minimum next = at;
+    for (size_t c = 0; c < free.size(); ++c) next.x[free[c]] += change[static_cast<long>(c)];
+    next.base.rotation = Rotation(next.x.segment<3>(kTurn)) * at.base.rotation;
+    next.x.segment<3>(kTurn).setZero();
+    next.cost = Residuals(next.base, next.x).squaredNorm();
+    if (!(next.cost <= at.cost)) {
+      damping *= 10;
+      continue;
+    }
+    const bool done = at.cost - next.cost < 1e-12 * (1 + at.cost);
+    // Members one by one: the base refers to its problem.
+    at.base.rotation = next.base.rotation;
+    at.x = next.x;
+    at.cost = next.cost;
+    damping = std::max(0.1 * damping, 1e-12);
+    if (done) break;
+  }
+  return at;
+}
+
+Matrix3d HomographyFrom(const std::vector<Vector2d>& sheet_mm,
+                        const std::vector<Vector2d>& image_px) {
+  std::vector<cv::Point2d> from, to;
+  for (const Vector2d& p : sheet_mm) from.emplace_back(p.x(), p.y());
+  for (const Vector2d& p : image_px) to.emplace_back(p.x(), p.y());
+  const cv::Mat h = cv::findHomography(from, to, 0);
+  if (h.empty())
+    throw Refused(
+        Reason::kNoScale,
+        "scale: the marker's corners do not span a plane; take the photograph from above");
+  Matrix3d homography;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) homography(r, c) = h.at<double>(r, c);
+  }
+  return homography;
+}
+
+size_t LargestSquare(const std::vector<SquareObservation>& squares) {
+  size_t largest = 0;
+  double longest = 0;
+  for (size_t i = 0; i < squares.size(); ++i) {
+    const double diagonal = (squares[i].corners_px[0] - squares[i].corners_px[2]).norm();
+    if (diagonal > longest) longest = diagonal, largest = i;
+  }
+  return largest;
+}
+
+Matrix3d SheetHomography(const SheetProblem& problem) {
+  std::vector<Vector2d> mm, px;
+  for (const SquareObservation& square : problem.squares) {
+    const Corners corners = square.corners_mm ? *square.corners_mm : SquareCorners(problem.side_mm);
+    for (size_t k = 0; k < 4; ++k) {
+      mm.push_back(corners[k]);
+      px.push_back(Undistorted(problem.knowledge.camera, square.corners_px[k]));
+    }
+    if (!square.corners_mm) break;  // the others lie at unknown places
+  }
+  return HomographyFrom(mm, px);
+}
+
+// Pose from a homography (Zhang 2000): K^-1 H = lambda [r1 r2 t], made orthonormal.
+Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
+  Matrix3d columns = problem.knowledge.camera.k.inverse() * homography;
+  columns *= 2 / (columns.col(0).norm() + columns.col(1).norm());
+  if (columns(2, 2) < 0) columns = -columns;  // the sheet lies before the camera
+  Matrix3d rotation;
+  rotation << columns.col(0), columns.col(1), columns.col(0).cross(columns.col(1));
+  const Eigen::JacobiSVD<Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const int others = LiesAnywhere(problem) ? static_cast<int>(problem.squares.size()) - 1 : 0;
+  Minimum start{{problem, svd.matrixU() * svd.matrixV().transpose()},
+                VectorXd::Zero(kSquares + 3 * others)};
+  start.x.segment<3>(kPlace) = columns.col(2);
+  const Matrix3d sheet_from_image = homography.inverse();
+  for (int i = 0; i < others; ++i) {
+    Corners mm = problem.squares[static_cast<size_t>(i) + 1].corners_px;
+    for (Vector2d& p : mm) {
+      p = (sheet_from_image * Undistorted(problem.knowledge.camera, p).homogeneous()).hnormalized();
+    }
+    const Vector2d across = mm[1] - mm[0];
+    start.x.segment<3>(kSquares + 3 * i) << Centre(mm), std::atan2(across.y(), across.x());
+  }
+  return start;
+}
+
+// A plane seen with little perspective looks the same tilted the other way: the normal mirrored at
+// the line of sight.
+Minimum TiltedTheOtherWay(const Minimum& minimum) {
+  const Vector3d sight = minimum.x.segment<3>(kPlace).normalized();
+  const Vector3d normal = minimum.base.rotation.col(2);
+  const Vector3d mirrored = 2 * normal.dot(sight) * sight - normal;
+  Minimum other = minimum;
+  other.base.rotation =
+      Eigen::Quaterniond::FromTwoVectors(normal, mirrored) * minimum.base.rotation;
+  return other;
+}
+
+void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSolution* solution) {
+  const MatrixXd jacobian = Jacobian(at.base, at.x, free);
+  const MatrixXd information = jacobian.transpose() * jacobian;
+  const long count = static_cast<long>(free.size());
+  const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(count, count));
+  // Where the sheet's own squares lie does not matter to lengths.
+  const long kept = std::count_if(free.begin(), free.end(), [](int i) { return i < kSpread; });
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(covariance.topLeftCorner(kept, kept));
+  const double surplus_scale =
+      std::sqrt(std::max(1.0, std::isnan(solution->reduced_chi2) ? 1.0 : solution->reduced_chi2));
+  for (long axis = 0; axis < kept; ++axis) {
+    const double length =
+        kShift * surplus_scale * std::sqrt(std::max(0.0, axes.eigenvalues()[axis]));
+    VectorXd plus = at.x, minus = at.x;
+    for (long c = 0; c < kept; ++c) {
+      plus[free[static_cast<size_t>(c)]] += length * axes.eigenvectors()(c, axis);
+      minus[free[static_cast<size_t>(c)]] -= length * axes.eigenvectors()(c, axis);
+    }
+    solution->shifted.emplace_back(PoseOf(at.base, plus), PoseOf(at.base, minus));
+  }
+  if (free.front() == kLogFocal) solution->log_focal_sigma = std::sqrt(covariance(0, 0));
+}
+
+double LogScale(const PlaneMap& map, const Vector2d& place_px) {
+  return 0.5 * std::log(std::abs(map.JacobianAt(place_px).determinant()));
+}
+
+double LogScale(const SheetPose& pose, double height_mm, const Vector2d& place_px) {
+  return LogScale(PlaneMap::FromGeometry(pose.PlaneAtHeight(height_mm), 0, ""), place_px);
+}
+
+void CheckProblem(const SheetProblem& problem) {
+  if (problem.squares.empty()) throw std::invalid_argument("SolveSheet: no squares");
+  if (!(problem.side_mm > 0)) throw std::invalid_argument("SolveSheet: side_mm must be positive");
+  for (const SquareObservation& square : problem.squares) {
+    if (square.corners_mm.has_value() != problem.squares.front().corners_mm.has_value()) {
+      throw std::invalid_argument("SolveSheet: corners_mm must be known of all squares or of none");
+    }
+    if (!(square.sigma_px > 0))
+      throw std::invalid_argument("SolveSheet: sigma_px must be positive");
+  }
+}
+
+}  // namespace
+
+double SheetPose::CameraHeightMm() const {
+  return -camera_from_sheet.col(2).dot(sheet_in_camera_mm);
+}
+
+PlaneGeometry SheetPose::PlaneAtHeight(double height_mm) const {
+  Matrix3d image_from_plane;
+  image_from_plane << camera_from_sheet.leftCols<2>(),
+      sheet_in_camera_mm + height_mm * camera_from_sheet.col(2);
+  return {(camera.k * image_from_plane).inverse(), camera};
+}
+
+SheetSolution SolveSheet(const SheetProblem& given) {
+  CheckProblem(given);
+  SheetProblem problem = given;
+  // The square that carries the sheet frame should be the one seen best.
+  if (LiesAnywhere(problem))
+    std::swap(problem.squares.front(), problem.squares[LargestSquare(problem.squares)]);
+  const Minimum start = StartFrom(problem, SheetHomography(problem));
+  const std::vector<int> free = FreeUnknowns(problem, static_cast<int>(start.x.size()));
+  const Minimum one = Minimise(start, free);
+  const Minimum other = Minimise(TiltedTheOtherWay(one), free);
+  const Minimum& best = other.cost < one.cost ? other : one;
+  SheetSolution solution;
+  solution.pose = PoseOf(best.base, best.x);
+  if (!best.x.allFinite() || !(solution.pose.CameraHeightMm() > 0)) {
+    throw Refused(Reason::kNoScale,
+                  "scale: the markers' corners fit no camera above the sheet; is the picture "
+                  "mirrored or cut?");
+  }
+  const long corners = static_cast<long>(8 * problem.squares.size());
+  const VectorXd residuals = Residuals(best.base, best.x);
+  double square_px = 0;
+  for (long i = 0; i < corners; ++i) {
+    const double px = residuals[i] * problem.squares[static_cast<size_t>(i / 8)].sigma_px;
+    square_px += px * px / static_cast<double>(corners);
+  }
+  const VectorXd priors = PriorSigmas(problem, static_cast<int>(best.x.size()));
+  const long with_prior =
+      std::count_if(free.begin(), free.end(), [&](int i) { return priors[i] > 0; });
+  solution.surplus = static_cast<int>(corners - static_cast<long>(free.size()));
+  const long degrees = solution.surplus + with_prior;
+  solution.rms_px = std::sqrt(square_px);
+  solution.reduced_chi2 = degrees > 0 ? best.cost / static_cast<double>(degrees) : std::nan("");
+  solution.spread_mm = best.x[kSpread];
+  AddSigmaPoints(best, free, &solution);
+  return solution;
+}
+
+double RelativeSigma(const SheetSolution& solution, const LengthPlace& place) {
+  double variance = 0;
+  for (const Vector2d& px : place.places_px) {
+    for (const auto& [plus, minus] : solution.shifted) {
+      const double half =
+          0.5 * (LogScale(plus, place.height_mm, px) - LogScale(minus, place.height_mm, px));
+      variance += half * half;
+    }
+    const double by_height = LogScale(solution.pose, place.height_mm + place.height_sigma_mm, px) -
+                             LogScale(solution.pose, place.height_mm, px);
+    variance += by_height * by_height;
+  }
+  return std::sqrt(variance / static_cast<double>(place.places_px.size()));
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "vision/camera.h"
+#include "vision/plane_map.h"
+
+namespace bladecurve {
+
+// A square marker on the sheet. Corners in printed order, clockwise from the top left.
+struct SquareObservation {
+  std::array<Eigen::Vector2d, 4> corners_px;
+  double sigma_px = 0;  // of a corner, each way
+  std::optional<std::array<Eigen::Vector2d, 4>>
+      corners_mm;  // y up; absent: lies anywhere on the sheet
+};
+
+// What is known of the camera beforehand. A sigma of zero: exactly.
+struct CameraKnowledge {
+  Camera camera;
+  double log_focal_sigma = 0;
+  double k1_sigma = 0;
+};
+
+struct SheetProblem {
+  std::vector<SquareObservation> squares;  // at least one; corners_mm of all or of none
+  double side_mm = 0;
+  double spread_sigma_mm =
+      0;  // ink and tone may move all sides outwards alike; told apart by known corners_mm only
+  CameraKnowledge knowledge;
+};
+
+// The camera over the sheet. Sheet frame: mm, x right, y up, z towards the camera, sheet at z = 0.
+struct SheetPose {
+  Camera camera;
+  Eigen::Matrix3d camera_from_sheet;   // rotation
+  Eigen::Vector3d sheet_in_camera_mm;  // origin of the sheet frame
+
+  [[nodiscard]] double CameraHeightMm() const;
+  // Image to mm in the plane parallel to the sheet and height_mm above it.
+  [[nodiscard]] PlaneGeometry PlaneAtHeight(double height_mm) const;
+};
+
+struct SheetSolution {
+  SheetPose pose;
+  // The pose moved by plus and minus a fixed share of a standard deviation along each principal
+  // axis of its covariance.
+  std::vector<std::pair<SheetPose, SheetPose>> shifted;
+  double spread_mm = 0;
+  double rms_px = 0;           // of the corners' coordinates
+  double reduced_chi2 = 1;     // 1: corners scatter as they should; NaN without surplus
+  int surplus = 0;             // observations beyond unknowns: at 0 a low rms proves nothing
+  double log_focal_sigma = 0;  // what the corners leave of it
+};
+
+// Least squares over all corners, with camera and lens within what is known of them. Throws
+// Refused{kNoScale} if the corners fit no camera.
+[[nodiscard]] SheetSolution SolveSheet(const SheetProblem& problem);
+
+// Where and in which plane lengths are measured.
+struct LengthPlace {
+  std::vector<Eigen::Vector2d> places_px;
+  double height_mm = 0, height_sigma_mm = 0;
+};
+
+// Relative standard uncertainty of lengths, rms over the places: corners, tilt, focal length, lens
+// and height.
+[[nodiscard]] double RelativeSigma(const SheetSolution& solution, const LengthPlace& place);
+
+}  // namespace bladecurve
