@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <initializer_list>
 #include <numbers>
 #include <stdexcept>
@@ -25,6 +26,14 @@ std::optional<double> Positive(const std::string& flag, const std::optional<std:
   const double value = ParseNumber(flag, *text);
   RequirePositive(flag, value);
   return value;
+}
+
+std::filesystem::path RequireFile(const std::string& flag, const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    throw std::invalid_argument(
+        fmt::format("{}: there is no file {}; name one that is there", flag, path));
+  }
+  return path;
 }
 
 // Two scales could contradict each other, and which one held would be a guess.
@@ -54,12 +63,13 @@ ScaleOptions ScaleFromFlags(const AnalysisFlags& flags) {
   scale.dpi = Positive("--dpi", flags.dpi);
   scale.length_mm = Positive("--length-mm", flags.length_mm);
   scale.marker_mm = Positive("--marker-mm", flags.marker_mm);
-  if (flags.card) scale.card = *flags.card;
+  if (flags.card)
+    scale.card = *flags.card == "default" ? "default" : RequireFile("--card", *flags.card);
   scale.print_scale = Positive("--print-scale", flags.print_scale).value_or(1.0);
   if (flags.plane_height_mm) {
     scale.plane_height_mm = ParseNumber("--plane-height-mm", *flags.plane_height_mm);
   }
-  if (flags.camera) scale.camera = *flags.camera;
+  if (flags.camera) scale.camera = RequireFile("--camera", *flags.camera);
   scale.pixels = flags.units == "px";
   return scale;
 }

@@ -183,7 +183,6 @@ void WritePlan(const fs::path& out, const CatalogPlan& plan) {
 CatalogPlan ReadPlan(const fs::path& out) {
   const char* remedy = "'bladecurve catalog plan DIR -o OUT' makes it";
   CatalogPlan plan;
-  plan.instruments = InstrumentsInManifest(out / "manifest.csv");
   const auto record = nlohmann::json::parse(
       ReadWhole(out / "plan.json", remedy), nullptr, /*allow_exceptions=*/false);
   if (!record.is_object() || record.value("format", "") != "bladecurve-catalog/1" ||
@@ -193,6 +192,7 @@ CatalogPlan ReadPlan(const fs::path& out) {
   }
   for (const auto& flag : record["flags"])
     plan.arguments.push_back(flag.is_string() ? flag.get<std::string>() : "");
+  plan.instruments = InstrumentsInManifest(out / "manifest.csv");
   return plan;
 }
 

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "model/blade_file.h"
+#include "tests/samples/picture_files.h"
+#include "tests/samples/program_run.h"
+#include "vision/render.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using Eigen::Vector2d;
+
+const fs::path kSamples = fs::path(BLADECURVE_SOURCE_DIR) / "samples/photos";
+
+// Seen straight from above, so that one number is the scale of the whole picture.
+SceneSpec SceneFromAbove() {
+  SceneSpec scene;
+  scene.width = 1200;
+  scene.height = 900;
+  scene.camera.mm_per_px = 0.2;
+  return scene;
+}
+
+const RenderedPhoto& PhotoFromAbove() {
+  static const RenderedPhoto photo = RenderScene(SceneFromAbove());
+  return photo;
+}
+
+std::string MmPerPx() { return std::to_string(PhotoFromAbove().truth.mm_per_px); }
+
+Json MustFit(const fs::path& folder, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "fit");
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const ProgramRun run = RunBladecurve(arguments, folder);
+  EXPECT_EQ(run.exit_code, 0) << run.standard_error << run.standard_output.substr(0, 300);
+  Json record = Json::parse(run.standard_output, nullptr, false);
+  EXPECT_TRUE(record.is_object());
+  return record;
+}
+
+Json MustFitFile(const fs::path& folder, const std::string& name, const std::string& bytes) {
+  WriteText(folder / name, bytes);
+  return MustFit(folder, {name, "--mm-per-px", MmPerPx()});
+}
+
+Vector2d PointOf(const Json& point) {
+  return {point.at(0).get<double>(), point.at(1).get<double>()};
+}
+
+// The same scissors in another file: same pose and same curve, within what the re-encoding changes.
+void ExpectSameMeasurement(const Json& a, const Json& b, double tolerance_px) {
+  ASSERT_TRUE(a.contains("photos") && b.contains("photos"));
+  const Json &photo_a = a["photos"][0], &photo_b = b["photos"][0];
+  const double reach_px = (PointOf(photo_a["upper_end_px"]) - PointOf(photo_a["pivot_px"])).norm();
+  EXPECT_EQ(photo_a["width"], photo_b["width"]);
+  EXPECT_EQ(photo_a["height"], photo_b["height"]);
+  EXPECT_LT((PointOf(photo_a["pivot_px"]) - PointOf(photo_b["pivot_px"])).norm(), tolerance_px);
+  EXPECT_NEAR(photo_a["theta_rad"].get<double>(),
+              photo_b["theta_rad"].get<double>(),
+              2 * tolerance_px / reach_px);
+}
+
+TEST(Fit, WritesTheCurveAndItsPicture) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const ProgramRun run =
+      RunBladecurve({"fit", "scissors.jpg", "--mm-per-px", MmPerPx(), "--quiet"}, folder);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.standard_output + run.standard_error, "");
+  EXPECT_EQ(ReadText(folder / "scissors.overlay.png").substr(1, 3), "PNG");
+  const BladeFile blade = ReadBladeFile(folder / "scissors.blade.json");
+  EXPECT_EQ(blade.name, "scissors");
+}
+
+TEST(Fit, JsonToStandardOutputWritesNoFile) {
+  const fs::path folder = TestFolder();
+  MustFitFile(folder, "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  EXPECT_FALSE(fs::exists(folder / "scissors.blade.json"));
+  EXPECT_FALSE(fs::exists(folder / "scissors.overlay.png"));
+}
+
+TEST(Fit, ResultHasTheKeysOfTheFormat) {
+  const Json record = MustFitFile(TestFolder(), "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  for (const char* key : {"format",
+                          "name",
+                          "status",
+                          "warnings",
+                          "software",
+                          "curve",
+                          "alternatives",
+                          "domain",
+                          "covariance",
+                          "fit",
+                          "photos"}) {
+    EXPECT_TRUE(record.contains(key)) << key;
+  }
+  const Json photo = record.at("photos").at(0);
+  for (const char* key : {"file",
+                          "sha256",
+                          "width",
+                          "height",
+                          "pivot_px",
+                          "pivot_sigma_px",
+                          "axis_px",
+                          "theta_rad",
+                          "theta_sigma_rad",
+                          "theta_source",
+                          "mm_per_px",
+                          "mm_per_px_sigma",
+                          "scale_source",
+                          "upper_edge_px",
+                          "upper_edge_mm",
+                          "upper_edge_sigma_px",
+                          "lower_edge_px",
+                          "upper_end_px",
+                          "lower_end_px",
+                          "plan",
+                          "ms_total"}) {
+    EXPECT_TRUE(photo.contains(key)) << key;
+  }
+  EXPECT_EQ(record["format"], "bladecurve/1");
+  EXPECT_EQ(record["status"] == "review", !record["warnings"].empty());
+  EXPECT_EQ(record["covariance"]["matrix"].size(), record["covariance"]["parameters"].size());
+}
+
+// phi at theta_rad, drawn in the frame of pivot_px, axis_px and mm_per_px, is the edge that was
+// located.
+TEST(Fit, CurveLiesOnTheLocatedEdge) {
+  const fs::path folder = TestFolder();
+  const Json record = MustFitFile(folder, "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  WriteText(folder / "r.blade.json", record.dump());
+  const BladeCurve curve = ReadBladeFile(folder / "r.blade.json").curve;
+  const Json& photo = record["photos"][0];
+  const Vector2d pivot = PointOf(photo["pivot_px"]), axis = PointOf(photo["axis_px"]);
+  const Vector2d upwards(axis.y(), -axis.x());
+  const double mm_per_px = photo["mm_per_px"], theta_rad = photo["theta_rad"];
+  double sum = 0;
+  for (const Json& point : photo["upper_edge_px"]) {
+    const Vector2d from_pivot = PointOf(point) - pivot;
+    const double x_mm = mm_per_px * axis.dot(from_pivot),
+                 y_mm = mm_per_px * upwards.dot(from_pivot);
+    sum += std::pow((curve.Eval(x_mm, theta_rad).phi_mm - y_mm) / mm_per_px, 2);
+  }
+  const double rms_px = std::sqrt(sum / static_cast<double>(photo["upper_edge_px"].size()));
+  // Robust fits leave some points out of their own rms; another factor would be another edge.
+  EXPECT_LT(rms_px, 2 * record["fit"]["rms_px"].get<double>() + 0.05);
+}
+
+TEST(Fit, FindsTheTruthOfARenderedPhotograph) {
+  const SceneTruth& truth = PhotoFromAbove().truth;
+  const Json record = MustFitFile(TestFolder(), "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const Json& photo = record["photos"][0];
+  const double pivot_sigma_px = photo["pivot_sigma_px"], theta_sigma_rad = photo["theta_sigma_rad"];
+  // Four sigma: one scene in ten thousand may be further off.
+  EXPECT_LT((PointOf(photo["pivot_px"]) - truth.pivot_px).norm(), 4 * pivot_sigma_px + 0.1);
+  EXPECT_NEAR(photo["theta_rad"].get<double>(), truth.theta_rad, 4 * theta_sigma_rad + 1e-3);
+}
+
+TEST(Fit, EveryOrientationGivesTheDisplayedPicture) {
+  const fs::path folder = TestFolder();
+  const Json upright = MustFitFile(folder, "1.jpg", JpegFile(PhotoFromAbove().bgr));
+  for (int orientation = 2; orientation <= 8; ++orientation) {
+    SCOPED_TRACE("EXIF orientation " + std::to_string(orientation));
+    const std::string jpeg = JpegFile(StoredFor(PhotoFromAbove().bgr, orientation));
+    const Json turned = MustFitFile(
+        folder, std::to_string(orientation) + ".jpg", WithOrientation(jpeg, orientation));
+    // JPEG blocks and chroma siting differ from one turn to the next.
+    ExpectSameMeasurement(upright, turned, 0.3);
+  }
+}
+
+TEST(Fit, EveryPixelFormatGivesTheSameScissors) {
+  const fs::path folder = TestFolder();
+  const cv::Mat& picture = PhotoFromAbove().bgr;
+  const Json reference = MustFitFile(folder, "rgb.png", PngFile(picture, PngKind::kRgb8));
+  for (const PngKind kind : {PngKind::kGrey8,
+                             PngKind::kGrey16,
+                             PngKind::kRgb16,
+                             PngKind::kRgba8,
+                             PngKind::kGreyAlpha8}) {
+    SCOPED_TRACE("PngKind " + std::to_string(static_cast<int>(kind)));
+    ExpectSameMeasurement(reference, MustFitFile(folder, "other.png", PngFile(picture, kind)), 0.1);
+  }
+}
+
+// 216 colours without dithering shift an edge by a fraction of a pixel, not the scissors.
+TEST(Fit, PaletteAndCmykGiveTheSameScissors) {
+  const fs::path folder = TestFolder();
+  const cv::Mat& picture = PhotoFromAbove().bgr;
+  const Json reference = MustFitFile(folder, "rgb.png", PngFile(picture, PngKind::kRgb8));
+  ExpectSameMeasurement(
+      reference, MustFitFile(folder, "palette.png", PngFile(picture, PngKind::kPalette)), 2);
+  std::vector<cv::Mat> channels;
+  cv::split(picture, channels);
+  cv::Mat inks;  // C = 1 - R and so on, no black ink
+  const std::vector<cv::Mat> cmyk = {
+      ~channels[2], ~channels[1], ~channels[0], cv::Mat::zeros(picture.size(), CV_8U)};
+  cv::merge(cmyk, inks);
+  ExpectSameMeasurement(reference, MustFitFile(folder, "inks.jpg", JpegFile(inks)), 0.5);
+}
+
+TEST(Fit, SameInputGivesTheSameBytesWhateverTheThreads) {
+  const fs::path folder = TestFolder();
+  const std::vector<std::string> arguments = {"fit",
+                                              (kSamples / "mayo.jpg").string(),
+                                              (kSamples / "mayo_wide.jpg").string(),
+                                              "--marker-mm",
+                                              "25",
+                                              "--json",
+                                              "-",
+                                              "--no-times",
+                                              "--threads"};
+  std::vector<std::string> results;
+  for (const char* threads : {"1", "2", "1"}) {
+    std::vector<std::string> with_threads = arguments;
+    with_threads.emplace_back(threads);
+    results.push_back(RunBladecurve(with_threads, folder).standard_output);
+  }
+  EXPECT_NE(results[0].find("\"curve\""), std::string::npos) << results[0];
+  EXPECT_TRUE(results[0] == results[1]) << "two threads give other bytes";
+  EXPECT_TRUE(results[0] == results[2]) << "a second run gives other bytes";
+}
+
+TEST(Fit, TimesAreLeftOutOnRequest) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const Json record = MustFit(folder, {"scissors.jpg", "--mm-per-px", MmPerPx(), "--no-times"});
+  EXPECT_FALSE(record["photos"][0].contains("ms_total"));
+  EXPECT_FALSE(record["photos"][0]["plan"][0].contains("ms"));
+}
+
+TEST(Fit, WithoutAScaleItIsRefused) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.png", PngFile(PhotoFromAbove().bgr, PngKind::kRgb8));
+  const ProgramRun run = RunBladecurve({"fit", "scissors.png"}, folder);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.standard_output.find("\"no_scale\""), std::string::npos) << run.standard_output;
+}
+
+TEST(Fit, PixelsServeWhenAskedFor) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.png", PngFile(PhotoFromAbove().bgr, PngKind::kRgb8));
+  const Json record = MustFit(folder, {"scissors.png", "--units", "px"});
+  EXPECT_EQ(record["photos"][0]["mm_per_px"], 1.0);
+}
+
+TEST(Fit, KnownLengthGivesTheScale) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.png", PngFile(PhotoFromAbove().bgr, PngKind::kRgb8));
+  const SceneTruth& truth = PhotoFromAbove().truth;
+  const double length_mm = truth.upper.shape.to_mm;
+  const Json record = MustFit(folder, {"scissors.png", "--length-mm", std::to_string(length_mm)});
+  const double found = record["photos"][0]["mm_per_px"];
+  const double sigma = record["photos"][0]["mm_per_px_sigma"];
+  EXPECT_NEAR(found, truth.mm_per_px, 4 * sigma);
+  EXPECT_LT(sigma, 0.02 * found) << "a scale this uncertain is none";
+}
+
+TEST(Fit, UnwritableResultIsAnErrorNamingTheFile) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const ProgramRun run = RunBladecurve(
+      {"fit", "scissors.jpg", "--mm-per-px", MmPerPx(), "-o", "no/such/folder/x"}, folder);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.standard_error.find("no/such/folder/x.blade.json"), std::string::npos)
+      << run.standard_error;
+}
+
+}  // namespace
+}  // namespace bladecurve
