@@ -153,8 +153,8 @@ bool TorqueStep::SnapOutwards(double s) noexcept {
   return true;
 }
 
-// Between `from` and `next` the crack comes to the end of the plate.
-void TorqueStep::ReachPlateEnd(const Waypoint& from, double next) noexcept {
+// Between `from` and `next` the crack comes to the end of the plate: returns where.
+double TorqueStep::ReachPlateEnd(const Waypoint& from, double next) noexcept {
   const auto growth = [this](double at) noexcept {
     return AlongPath(GrowthLevel(TipOfCrack(plate_end_mm_, at)));
   };
@@ -165,6 +165,7 @@ void TorqueStep::ReachPlateEnd(const Waypoint& from, double next) noexcept {
   state_.crack_mm = plate_end_mm_;
   state_.tip = end.tip;
   state_.mode = CutMode::kThrough;
+  return s;
 }
 
 // Adds the work of a stretch of cutting: trapezoidal rule with end corrections (error ~ stride^5).

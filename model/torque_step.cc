@@ -76,7 +76,7 @@ double TorqueStep::RunLeg(double s) noexcept {
     case CutMode::kThrough:
       break;
   }
-  state_.tip = TipOfCrack(state_.crack_mm, 1);
+  state_.tip = TipOfCrack(state_.crack_mm, 1);  // through: only the pivot still moves
   return 1;
 }
 
@@ -167,10 +167,7 @@ double TorqueStep::CuttingLeg(double s) noexcept {
     const bool turns = TipSpeed(ahead->tip) + dpivot_mm_ < 0;
     if (turns) ahead = TurningPoint(from, *ahead);
     const double crack_mm = ahead->tip.x_mm + PivotAt(ahead->s);
-    if (crack_mm >= plate_end_mm_) {
-      ReachPlateEnd(from, ahead->s);
-      return ahead->s;
-    }
+    if (crack_mm >= plate_end_mm_) return ReachPlateEnd(from, ahead->s);
     BookCut(from, *ahead);
     state_.crack_mm = std::max(state_.crack_mm, crack_mm);
     state_.tip = ahead->tip;

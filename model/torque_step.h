@@ -64,7 +64,7 @@ class TorqueStep {
   void StartCutting(double s) noexcept;
   void StopCutting(double s) noexcept;
   void LoseEdge(double s) noexcept;
-  void ReachPlateEnd(const Waypoint& from, double next) noexcept;
+  [[nodiscard]] double ReachPlateEnd(const Waypoint& from, double next) noexcept;
   void BookCut(const Waypoint& from, const Waypoint& to) noexcept;
   void NoteContact(const Waypoint& from, const Waypoint& to) noexcept;
   void Log(TorqueEventKind kind,
