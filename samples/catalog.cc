@@ -138,7 +138,7 @@ void AddMergeAndStatus(CLI::App& catalog) {
   const auto merge_out = std::make_shared<std::string>(),
              status_out = std::make_shared<std::string>();
   CLI::App* merge =
-      catalog.add_subcommand("merge", "Join all shards into catalog.jsonl and catalog.csv");
+      catalog.add_subcommand("merge", "Join all shards into catalog.jsonl, .csv and .sqlite");
   merge->add_option("OUT", *merge_out, "A folder that 'plan' made")->required();
   merge->callback([merge_out] { MergeCatalog(*merge_out); });
   CLI::App* status = catalog.add_subcommand("status", "How far the work is");

@@ -7,6 +7,7 @@
 #include "samples/catalog_plan.h"
 #include "samples/catalog_row.h"
 #include "samples/catalog_rows_file.h"
+#include "samples/catalog_sqlite.h"
 #include "samples/output_files.h"
 
 namespace bladecurve {
@@ -70,12 +71,14 @@ CatalogStatus StatusOfCatalog(const fs::path& out) {
 
 void MergeCatalog(const fs::path& out) {
   std::string lines, table = CsvHeader();
-  for (const Json& row : CurrentRows(out)) {
+  const std::vector<Json> rows = CurrentRows(out);
+  for (const Json& row : rows) {
     lines += row.dump() + "\n";
     table += CsvRows(row);
   }
   WriteFileWhole(out / "catalog.jsonl", lines);
   WriteFileWhole(out / "catalog.csv", table);
+  WriteSqlite(out / "catalog.sqlite", rows);
 }
 
 }  // namespace bladecurve

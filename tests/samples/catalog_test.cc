@@ -121,7 +121,7 @@ TEST(Catalog, ShardsMergeToTheSameBytes) {
     EXPECT_EQ(Catalog(folder, {"run", "split", "--shard", shard}).exit_code, 0) << shard;
   }
   EXPECT_EQ(Catalog(folder, {"merge", "split"}).exit_code, 0);
-  for (const char* file : {"catalog.jsonl", "catalog.csv"}) {
+  for (const char* file : {"catalog.jsonl", "catalog.csv", "catalog.sqlite"}) {
     EXPECT_TRUE(ReadText(folder / "whole" / file) == ReadText(folder / "split" / file)) << file;
   }
 }
