@@ -127,7 +127,8 @@ void CheckSquare(const Json& matrix, std::size_t size) {
   if (!square) {
     const std::string n = std::to_string(size);
     Complain("covariance.matrix",
-             "must be " + n + " lists of " + n + " numbers, as parameters has");
+             "must be " + n + " lists of " + n +
+                 " numbers, one for each of parameters; correct it or leave covariance out");
   }
 }
 

@@ -136,16 +136,42 @@ static SplinePoint SearchPointOver(const BladeKernel* k,
   return p;
 }
 
+/* How far back over the graph the rest of the spline hangs, beyond u in direction -1 or 1: the x
+ * of its farthest fold or end. */
+static double OverhangBeyond(const BladeKernel* k, const EdgeTurn* turn, double u, int direction) {
+  double farthest = direction * kFarthest;
+  int row, i;
+  for (row = 1; row < k->num_rows - 1; ++row) {
+    const double centre = k->rows[kRowSize * row];
+    double steepness[kMaxDegree], folds[kMaxDegree + 2];
+    int n;
+    SteepnessOfRow(k, row, turn, steepness);
+    n = PolynomialRoots(
+        steepness, k->degree - 1, k->ends[row] - centre, k->ends[row + 1] - centre, folds);
+    folds[n++] = k->ends[row] - centre;
+    folds[n++] = k->ends[row + 1] - centre;
+    for (i = 0; i < n; ++i) {
+      const double x = XOfPoint(turn, PointAt(k, centre + folds[i]));
+      if (direction * (centre + folds[i] - u) > 0.0 && direction * (x - farthest) < 0.0)
+        farthest = x;
+    }
+  }
+  return farthest;
+}
+
 /* The point over x of an edge that is no graph everywhere: where x is beyond the graph, its end,
- * with its own x, flagged. */
+ * with its own x. Flagged there and where another part of the edge hangs over x too. */
 static SplinePoint PointOfPartOver(const BladeKernel* k,
                                    const EdgeTurn* turn,
                                    double* x,
                                    unsigned* flags) {
   const SplinePoint low = PointAt(k, turn->u_low), high = PointAt(k, turn->u_high);
   const double x_low = XOfPoint(turn, low), x_high = XOfPoint(turn, high);
+  if (*x <= OverhangBeyond(k, turn, turn->u_low, -1) || *x <= x_low ||
+      *x >= OverhangBeyond(k, turn, turn->u_high, 1) || *x >= x_high) {
+    *flags |= BLADECURVE_NOT_GRAPH;
+  }
   if (*x > x_low && *x < x_high) return SearchPointOver(k, turn, *x, 0.5 * (low.u + high.u));
-  *flags |= BLADECURVE_NOT_GRAPH;
   if (*x <= x_low) {
     *x = x_low;
     return low;
