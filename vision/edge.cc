@@ -18,6 +18,10 @@
 namespace bladecurve {
 namespace {
 
+constexpr double kLeastClear =
+    0.15;  // share of stations with a clear step; noise alone reaches a tenth
+constexpr double kLeastPlaced =
+    0.3;  // share of windows that place the edge; below, most of it is a guess
 constexpr double kGuessSmoothing = 3;  // px: rounds the corners of the guessed polyline
 
 void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
@@ -31,12 +35,19 @@ void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& optio
     throw std::invalid_argument("edge: outlier_sigmas must be positive");
 }
 
-void RefuseIfUnseen(const ChosenTransition& chosen) {
-  constexpr double kLeastSupport = 0.1;  // below, most of the line is drawn through texture
-  if (chosen.support >= kLeastSupport) return;
+void RefuseIfTooShort(const EdgePath& path) {
+  constexpr int kLeastLength = 12;  // px; shorter, a line cannot be told from a curve
+  if (path.size() >= kLeastLength) return;
+  throw Refused(Reason::kEdgeTooShort,
+                "edge: " + std::to_string(path.size()) +
+                    " px of free edge are too few; photograph from nearer");
+}
+
+void RefuseIfUnseen(double share_seen, double least_share) {
+  if (share_seen >= least_share) return;
   throw Refused(Reason::kLowContrast,
                 "edge: the blade stands out from its background along only " +
-                    std::to_string(std::lround(100 * chosen.support)) +
+                    std::to_string(std::lround(100 * share_seen)) +
                     " % of its edge; use another background or light");
 }
 
@@ -48,8 +59,9 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
                        const EdgeOptions& options) {
   Check(grey, guess, options);
   const EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
+  RefuseIfTooShort(rough);
   const ChosenTransition chosen = ChooseTransition(grey, rough, guess.search_px);
-  RefuseIfUnseen(chosen);
+  RefuseIfUnseen(chosen.support, kLeastClear);
   EdgeFitOptions fit_options;
   fit_options.inner_px = chosen.inner_px;
   fit_options.outer_px = chosen.outer_px;
@@ -57,8 +69,9 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
   const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);
+  RefuseIfUnseen(fit.seen, kLeastPlaced);
   LocatedEdge edge = PointsFromFit(fit, options);
-  edge.ambiguity = chosen.ambiguity;
+  edge.ambiguity = std::max(chosen.ambiguity, 1 - chosen.support);
   edge.common_sigma_px = ToneSigma(fit, tone);
   return edge;
 }

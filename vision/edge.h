@@ -29,10 +29,11 @@ struct EdgeOptions {
 
 struct LocatedEdgePoint {
   Eigen::Vector2d point_px;  // from the pixels nearest to it alone: for fitting
-  Eigen::Vector2d trend_px;  // from some 50 px of edge about it: for showing
-  Eigen::Vector2d normal;    // unit, out of the blade
-  double sigma_px = 0;       // of this point by itself, along the normal
-  double contrast = 0;       // background minus blade, linear light
+  Eigen::Vector2d trend_px =
+      Eigen::Vector2d::Zero();  // from some 50 px of edge about it: for showing
+  Eigen::Vector2d normal;       // unit, out of the blade
+  double sigma_px = 0;          // of this point by itself, along the normal
+  double contrast = 0;          // background minus blade, linear light
   bool inlier = true;
 };
 

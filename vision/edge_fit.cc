@@ -179,7 +179,8 @@ class Fitter {
                          window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
     }
     const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_, 0.6 * blur_);
-    blur_ = std::clamp(blur_ + step, options_.blur_px / kBlurFactor, options_.blur_px * kBlurFactor);
+    blur_ =
+        std::clamp(blur_ + step, options_.blur_px / kBlurFactor, options_.blur_px * kBlurFactor);
   }
 
   // Takes the path to where the windows see the edge, remembering how far that is from the start.
@@ -220,14 +221,23 @@ class Fitter {
     return windows_.AlongTheEdge(SmoothValues(offsets, weights, 1 / (kBendSigma * kBendSigma)));
   }
 
+  [[nodiscard]] double SeenShare() const {
+    constexpr double kInformation = 9;  // 1/px^2
+    double seen = 0;
+    for (const LevelFit& window : windows_.fits()) {
+      seen += window.offset_information > kInformation * std::max(window.chi_square_per_pixel, 1.0);
+    }
+    return seen / static_cast<double>(windows_.fits().size());
+  }
+
   EdgeFit Finish() {
     EdgeFit fit;
-    fit.trend_px = Trend();
+    fit.seen = SeenShare();
+    const std::vector<double> trend = Trend();
     fit.blur_px = blur_;
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
-    for (int i = 0; i < band_.size(); ++i)
-      fit.slices.push_back(FitSlice(i, fit.trend_px[Index(i)]));
+    for (int i = 0; i < band_.size(); ++i) fit.slices.push_back(FitSlice(i, trend[Index(i)]));
     fit.path = std::move(path_);
     return fit;
   }

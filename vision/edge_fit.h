@@ -33,7 +33,7 @@ struct EdgeSlice {
 struct EdgeFit {
   EdgePath path;                  // within a fraction of a pixel of the edge
   std::vector<EdgeSlice> slices;  // one per sample; sigma infinite where there are no pixels
-  std::vector<double> trend_px;   // offset of the edge from the path, averaged over many slices
+  double seen = 0;                // share of the windows that place the edge to a third of a pixel
   double blur_px = 0;
   double noise_blade = 0, noise_ground = 0;  // of a pixel, texture included, linear light
 };

@@ -8,13 +8,14 @@
 #include <string>
 
 #include "vision/blurred_step.h"
+#include "vision/edge_curve.h"
+#include "vision/edge_path.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr int kLeastPoints = 12;  // fewer do not tell a line from a curve
-constexpr double kMostBlur = 5;   // px; beyond, the position is a matter of taste
+constexpr double kMostBlur = 5;  // px; beyond, the position is a matter of taste
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
@@ -27,20 +28,17 @@ double MedianAbsolute(std::vector<double> values) {
 }
 
 // Neighbouring slices combined by their information; the slices are about a pixel long.
-std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit,
-                                       int slices_per_point,
-                                       std::vector<double>& scatter) {
+std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point) {
   std::vector<LocatedEdgePoint> points;
   for (int first = 0; first < fit.path.size(); first += slices_per_point) {
     const int last = std::min(first + slices_per_point, fit.path.size());
-    double information = 0, offset = 0, contrast = 0, rest = 0;
+    double information = 0, offset = 0, contrast = 0;
     for (int i = first; i < last; ++i) {
       const EdgeSlice& slice = fit.slices[Index(i)];
       if (!std::isfinite(slice.sigma_px)) continue;
       const double weight = 1 / (slice.sigma_px * slice.sigma_px);
       information += weight;
       offset += weight * slice.offset_px;
-      rest += weight * (slice.offset_px - fit.trend_px[Index(i)]);
       contrast += weight * slice.contrast;
     }
     if (information <= 0) continue;
@@ -48,28 +46,66 @@ std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit,
     LocatedEdgePoint point;
     point.normal = fit.path.normals[middle];
     point.point_px = fit.path.points[middle] + offset / information * point.normal;
-    point.trend_px = fit.path.points[middle] + fit.trend_px[middle] * point.normal;
     point.sigma_px = 1 / std::sqrt(information);
     point.contrast = contrast / information;
     points.push_back(point);
-    scatter.push_back(rest / information);
   }
   return points;
 }
 
-// Sum of the correlations of neighbours, up to the first that is not positive: how many points
-// count as one.
+// The trend of all inlying points, and how far each lies off it, in its own sigmas.
+std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points, double spacing_px) {
+  constexpr double kLength = 60;  // px; what bends over less is scatter
+  std::vector<double> x, y, weights;
+  for (const LocatedEdgePoint& point : points) {
+    x.push_back(point.point_px.x());
+    y.push_back(point.point_px.y());
+    weights.push_back(point.inlier ? 1 / (point.sigma_px * point.sigma_px) : 0.0);
+  }
+  std::vector<double> sorted(weights);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double stiffness =
+      std::max(*middle, 1e-6) * std::pow(kLength / spacing_px / (2 * std::numbers::pi), 4);
+  x = SmoothValues(x, weights, stiffness);
+  y = SmoothValues(y, weights, stiffness);
+  std::vector<double> scatter;
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i].trend_px = {x[i], y[i]};
+    scatter.push_back(points[i].normal.dot(points[i].point_px - points[i].trend_px) /
+                      points[i].sigma_px);
+  }
+  return scatter;
+}
+
+// Points that leave the plain curve of the others.
+void RejectStrays(std::vector<LocatedEdgePoint>& points) {
+  constexpr double kTolerance = 0.3;  // px; what a blade may differ from the curve
+  constexpr double kSpreads = 4;
+  const std::vector<double> distances = DistancesFromPlainCurve(points);
+  const double limit = kTolerance + kSpreads * MedianAbsolute(distances);
+  for (size_t i = 0; i < points.size(); ++i) points[i].inlier = std::abs(distances[i]) <= limit;
+}
+
+// Texture, roughness and compression scatter the points more than the pixels' noise: how much more.
+double ExcessOf(const std::vector<double>& scatter) {
+  constexpr double kSigmaPerMedian = 1.4826;
+  return std::max(1.0, kSigmaPerMedian * MedianAbsolute(scatter));
+}
+
+// Sum of the correlations of neighbours: how many points count as one. Ends where they are no more
+// than what independent points reach by chance, which is 1/sqrt(count).
 double PointsPerIndependentOne(const std::vector<double>& normalized) {
   constexpr size_t kMostLag = 40;
-  double variance = 0;
+  constexpr double kFirstByChance = 3, kNextByChance = 1.5;
+  const double chance = 1 / std::sqrt(std::max(static_cast<double>(normalized.size()), 1.0));
+  double variance = 0, sum = 1;
   for (const double value : normalized) variance += value * value;
-  double sum = 1;
   for (size_t lag = 1; lag <= std::min(kMostLag, normalized.size() / 3); ++lag) {
     double product = 0;
     for (size_t i = lag; i < normalized.size(); ++i) product += normalized[i] * normalized[i - lag];
-    // What independent points reach by chance is no correlation.
     const double correlation = product / std::max(variance, 1e-30);
-    if (correlation < 1.5 / std::sqrt(static_cast<double>(normalized.size()))) break;
+    if (correlation < chance * (lag == 1 ? kFirstByChance : kNextByChance)) break;
     sum += 2 * correlation;
   }
   return sum;
@@ -85,22 +121,14 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
   }
   const int slices_per_point = std::max(1, static_cast<int>(std::lround(options.step_px)));
   LocatedEdge edge;
-  std::vector<double> scatter;
-  edge.points = Combined(fit, slices_per_point, scatter);
-  if (static_cast<int>(edge.points.size()) < kLeastPoints) {
-    throw Refused(Reason::kEdgeTooShort,
-                  "edge: " + std::to_string(edge.points.size()) +
-                      " points are too few; photograph from nearer");
-  }
-  for (size_t i = 0; i < scatter.size(); ++i) scatter[i] /= edge.points[i].sigma_px;
-  // Texture, roughness and compression scatter the points more than the pixels' noise: say what is
-  // seen.
-  constexpr double kSigmaPerMedian = 1.4826;
-  const double excess = std::max(1.0, kSigmaPerMedian * MedianAbsolute(scatter));
+  edge.points = Combined(fit, slices_per_point);
+  RejectStrays(edge.points);
+  const std::vector<double> scatter = Detrend(edge.points, slices_per_point);
+  const double excess = ExcessOf(scatter);
   std::vector<double> inlying;
   for (size_t i = 0; i < scatter.size(); ++i) {
     edge.points[i].sigma_px *= excess;
-    edge.points[i].inlier = std::abs(scatter[i]) <= options.outlier_sigmas * excess;
+    edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
     if (edge.points[i].inlier) inlying.push_back(scatter[i]);
   }
   edge.correlation_px = PointsPerIndependentOne(inlying) * slices_per_point;

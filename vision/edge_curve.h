@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vision/edge.h"
+
+namespace bladecurve {
+
+// Distance of each point, along its normal, from the low-order curve that most of the points
+// follow. A cutting edge is such a curve from crotch to distal end; what leaves it at the ends is
+// the other blade or the rounding of the tip.
+[[nodiscard]] std::vector<double> DistancesFromPlainCurve(
+    const std::vector<LocatedEdgePoint>& points);
+
+}  // namespace bladecurve
