@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -12,7 +13,6 @@ namespace bladecurve {
 namespace {
 
 using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -205,27 +205,6 @@ bool Has(const Json& record, const char* key) {
   return record.contains(key) && !record[key].is_null();
 }
 
-}  // namespace
-
-OrderedJson CurveJson(const BladeShape& shape) {
-  if (const auto* tapered = std::get_if<TaperedRectangle>(&shape)) {
-    return {{"family", "tapered-rectangle"},
-            {"a_mm", tapered->a_mm},
-            {"b", tapered->b},
-            {"gain", tapered->gain}};
-  }
-  const auto& spline = std::get<RigidSpline>(shape);
-  return {{"family", "rigid-spline"},
-          {"degree", spline.degree},
-          {"knots_mm", spline.knots_mm},
-          {"coefficients_mm", spline.coefficients_mm}};
-}
-
-OrderedJson DomainJson(const CurveDomain& domain) {
-  return {{"x_mm", {domain.x_min_mm, domain.x_max_mm}},
-          {"theta_rad", {domain.theta_min_rad, domain.theta_max_rad}}};
-}
-
 BladeFile BladeFileOfJson(const Json& record) {
   if (!record.is_object())
     Complain("the file", "is " + Shown(record) + "; it must be a JSON object");
@@ -242,6 +221,28 @@ BladeFile BladeFileOfJson(const Json& record) {
     blade.fit_rms_mm = Number(record["fit"]["rms_mm"], "fit.rms_mm");
   }
   return blade;
+}
+
+// The parser's own words, without its code and without line ends.
+std::string ParserComplaint(const std::string& what) {
+  const std::size_t bracket = what.find("] ");
+  std::string text = bracket == std::string::npos ? what : what.substr(bracket + 2);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ') c = ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+BladeFile ParseBladeJson(const std::string& text) {
+  if (text.empty()) throw std::invalid_argument("is empty; it must be a .blade.json or a .so");
+  try {
+    return BladeFileOfJson(Json::parse(text));
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument("is no JSON: " + ParserComplaint(error.what()) +
+                                "; correct it there");
+  }
 }
 
 }  // namespace bladecurve

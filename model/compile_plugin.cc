@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 #include <fcntl.h>
-#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,12 +16,12 @@
 
 #include "model/export.h"
 
-extern char** environ;
-
 namespace bladecurve {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kNoSuchProgram = 127;  // as shells have it
 
 // A folder of its own that disappears again.
 class ScratchFolder {
@@ -57,22 +56,26 @@ std::vector<std::string> Compiler() {
   return compiler;
 }
 
-// Runs a program found on the PATH with its messages in a file; its exit code, 127 if there is
-// none.
+// Becomes the program, with its messages in a file; exit code 127 if there is no such program.
+[[noreturn]] void BecomeProgram(char* const* arguments, const fs::path& messages) noexcept {
+  const int file = open(messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  dup2(file, STDOUT_FILENO);
+  dup2(file, STDERR_FILENO);
+  execvp(arguments[0], arguments);
+  _exit(kNoSuchProgram);
+}
+
+// Runs a program found on the PATH; its exit code.
 int Run(std::vector<std::string> words, const fs::path& messages) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(
-      &actions, 2, messages.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, 2, 1);
-  pid_t child = 0;
-  const int error =
-      posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) return 127;
+  const pid_t child = fork();
+  if (child < 0) {
+    throw std::runtime_error(std::string("export: cannot start a program: ") +
+                             std::strerror(errno) + "; free some memory");
+  }
+  if (child == 0) BecomeProgram(arguments.data(), messages);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -121,7 +124,7 @@ void CompilePlugin(const std::string& source, const fs::path& library) {
   }
   words.insert(words.end(), {built.string(), text.string(), "-lm"});
   const int code = Run(words, messages);
-  if (code == 127) {
+  if (code == kNoSuchProgram) {
     throw std::runtime_error("export: there is no C compiler \"" + compiler +
                              "\"; install one or name it in CC, or use --as c and compile that");
   }
