@@ -88,7 +88,7 @@ std::vector<Found> SearchOctave(const cv::Mat& grey,
     const RimEllipse start =
         candidate.rim.OutOf(coarse.origin, scale).Into(fine.origin, fine_scale);
     const double radius = start.MeanRadius();
-    const RimFitOptions options{std::max(2.5, 0.2 * radius), std::max(2.0, 0.12 * radius), 6};
+    const RimFitOptions options{std::max(2.5, 0.2 * radius), std::max(2.0, 0.12 * radius)};
     std::optional<RimFit> fit = FitRim(fine.grey, start, options);
     if (!fit) continue;
     const double judged_radius = fit->rim.MeanRadius();
@@ -105,10 +105,9 @@ std::vector<Found> SearchOctave(const cv::Mat& grey,
 std::optional<Found> FindBest(const cv::Mat& grey, const ScrewSearch& search) {
   std::optional<Found> best;
   const double smallest = std::max(search.min_semi_axis_px, kLeastSemiAxisPx);
-  // An octave reaches 1.05 beyond its double; the last tenth of the range needs no octave of its
-  // own.
-  for (double radius = smallest; radius == smallest || 1.1 * radius < search.max_semi_axis_px;
-       radius *= 2.1) {
+  // Octaves overlap, as a rim near the end of one is seen better in the next.
+  for (double radius = smallest; radius == smallest || 1.15 * radius < search.max_semi_axis_px;
+       radius *= 1.8) {
     for (const Found& found : SearchOctave(grey, search, radius)) {
       if (!best || found.evidence > best->evidence) best = found;
     }
@@ -132,12 +131,15 @@ ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEl
 RimFit Refine(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged) {
   const ScaledWindow light = LightAround(grey, tone, judged.rim);
   const double radius = judged.rim.MeanRadius();
-  const RimFitOptions options{std::max(2.5, 0.1 * radius), std::clamp(0.1 * radius, 2.0, 3.0), 8};
+  const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
+  const RimFitOptions options{half_px, half_px, true, 400, 8, 0.002, 0};
   std::optional<RimFit> fit = FitRim(light.grey, judged.rim.Into(light.origin, 1), options);
   if (!fit) return judged;
   fit->rim = fit->rim.OutOf(light.origin, 1);
-  const bool stayed = (fit->rim.center - judged.rim.center).norm() < 0.1 * radius;
-  return stayed ? *fit : judged;
+  const Eigen::Vector2d axes = fit->rim.SemiAxes();
+  const bool same_rim = (fit->rim.center - judged.rim.center).norm() < 0.1 * radius &&
+                        axes[0] >= kLeastAxisRatio * axes[1];
+  return same_rim ? *fit : judged;
 }
 
 // The scatter along the rim cannot tell that light falling from one side moves all of it: where

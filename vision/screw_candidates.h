@@ -13,7 +13,7 @@ namespace bladecurve {
 
 // Sizes are sought an octave at a time, each in a window scaled so that the rim's mean radius is 7
 // to 14 px there: small enough to be quick, large enough to tell a rim from a blob.
-inline constexpr double kOctaveRadius = 7;
+inline constexpr double kOctaveRadius = 10;
 
 // Where an octave's rims are sought; all in pixels of its window.
 struct OctaveSearch {

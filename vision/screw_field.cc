@@ -20,9 +20,19 @@ constexpr float kNormalMad =
     1.4826F;                   // standard deviation over median absolute deviation, normal law
 constexpr int kUsualGrid = 8;  // (2 n + 1)^2 places tell what is usual
 
-Eigen::Vector2d SampleDirection(int sample) {
-  const double angle = 2 * std::numbers::pi * sample / RimField::kSamples;
-  return {std::cos(angle), std::sin(angle)};
+// Unit vectors of all samples, anticlockwise as x and y go.
+std::array<Eigen::Vector2d, RimField::kSamples> MakeSampleDirections() {
+  std::array<Eigen::Vector2d, RimField::kSamples> directions;
+  for (std::size_t sample = 0; sample < directions.size(); ++sample) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(sample) / RimField::kSamples;
+    directions[sample] = {std::cos(angle), std::sin(angle)};
+  }
+  return directions;
+}
+
+const Eigen::Vector2d& SampleDirection(int sample) {
+  static const std::array<Eigen::Vector2d, RimField::kSamples> directions = MakeSampleDirections();
+  return directions[static_cast<std::size_t>(sample)];
 }
 
 float SectorScore(float q_squared) { return q_squared / (q_squared + kHalfScore * kHalfScore); }
@@ -98,7 +108,7 @@ RimField::RimField(const cv::Mat& window,
     derivatives_[i] << x[i], y[i], xx[i], xy[i], yy[i], 0, 0, 0;
   }
   for (int direction = 0; direction < kDirections; ++direction) {
-    const Eigen::Vector2d n = SampleDirection(direction);
+    const Eigen::Vector2d& n = SampleDirection(direction);
     const auto index = static_cast<std::size_t>(direction);
     edge_[index] = n.x() * gx + n.y() * gy;
     line_[index] = n.x() * n.x() * hxx + 2 * n.x() * n.y() * hxy + n.y() * n.y() * hyy;
@@ -154,7 +164,7 @@ RimField::SectorResponses RimField::Responses(const RimEllipse& rim) const {
   for (int sector = 0; sector < kSectors; ++sector) {
     float edge = 0, line = 0;
     for (int k = 0; k < kSamplesPerSector; ++k) {
-      const Eigen::Vector2d u = SampleDirection(sector * kSamplesPerSector + k);
+      const Eigen::Vector2d& u = SampleDirection(sector * kSamplesPerSector + k);
       const Eigen::Vector2f n = (inverse_shape * u).normalized().cast<float>();
       const Derivatives d = DerivativesAt(rim.PointAt(u));
       edge += n.x() * d[0] + n.y() * d[1];

@@ -20,7 +20,7 @@ constexpr int kFewestProfiles = 24,
 constexpr double kTapPx = 0.5;              // spacing along a profile
 constexpr double kShrink = 0.8;             // of the profiles from one iteration to the next
 constexpr double kMostRelativeShift = 0.6;  // of half a profile: a larger one is an extrapolation
-constexpr double kTukeySigmas = 3.0;        // beyond: something else than the rim
+constexpr double kTukeySigmas = 4.0;        // beyond: something else than the rim
 constexpr double kLeastScatterPx = 0.02;    // keeps the biweight open on perfect pictures
 constexpr double kLeastCorrelation = 0.2;   // profiles less alike the common one have no weight
 constexpr double kRimCorrelation = 0.6;     // profiles more alike count as rim seen
@@ -28,10 +28,12 @@ constexpr double kRimRelativeWidth =
     0.06;  // of the radius: how near to the ellipse a rim point must be
 constexpr double kRimLeastWidthPx = 0.5;
 constexpr double kSmoothingTurns =
-    1.0 / 64;                // Gaussian sigma along the rim before profiles are judged
-constexpr int kBlocks = 16;  // of the rim, taken as independent in the covariance
-constexpr double kConvergedPx = 0.003;
-constexpr int kReweightings = 5;
+    1.0 / 64;  // Gaussian sigma along the rim before profiles are judged
+constexpr double kFewBlocks =
+    1.25;  // F(2, 14) over chi^2(2)/2 at 95 %: so few blocks scatter themselves
+constexpr std::size_t kBlocks = 24;       // of the rim, taken as independent in the covariance
+constexpr double kLeastSlopeShare = 0.3;  // a rim of outliers only: the scatter means nothing then
+constexpr int kReweightings = 4;
 constexpr double kNormalMad =
     1.4826;  // standard deviation over median absolute deviation, normal law
 constexpr double kLeastOfStart = 0.5,
@@ -59,15 +61,24 @@ double Bilinear(const cv::Mat& picture, double x, double y) {
          down * ((1 - right) * lower[0] + right * lower[1]);
 }
 
-Profiles SampleProfiles(const cv::Mat& picture, const RimEllipse& rim, double half_px) {
+Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
+  const Eigen::ArrayXd relative = (t.array() / half_px).square();  // 0.2 at the ends
+  const Eigen::ArrayXd exponent = flat ? Eigen::ArrayXd(relative.pow(4)) : relative;
+  return (-1.6 * exponent).exp();
+}
+
+Profiles SampleProfiles(const cv::Mat& picture,
+                        const RimEllipse& rim,
+                        double half_px,
+                        const RimFitOptions& options) {
   const double perimeter = 2 * std::numbers::pi * rim.MeanRadius();
-  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, kMostProfiles);
+  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, options.most_profiles);
   const int half_taps = static_cast<int>(std::ceil(half_px / kTapPx));
   const int taps = 2 * half_taps + 1;
   Profiles profiles;
   profiles.values.resize(count, taps);
   profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
-  profiles.window = (-1.6 * (profiles.t.array() / half_px).square()).exp();  // 0.2 at the ends
+  profiles.window = Window(profiles.t, half_px, options.flat_window);
   const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
@@ -190,25 +201,34 @@ double PriorWeight(const Match& match, double typical_amplitude) {
 }
 
 double Biweight(double z) { return std::abs(z) < 1 ? (1 - z * z) * (1 - z * z) : 0; }
+// d(z w(z))/dz: what a residual still adds to the estimate when it grows.
+double BiweightSlope(double z) { return std::abs(z) < 1 ? (1 - z * z) * (1 - 5 * z * z) : 0; }
 
 // Residuals near each other on the rim are correlated (a glint, the grain of the ground), so the
-// scatter is taken from the scores of whole blocks: A^-1 (sum_b g_b g_b^T) A^-1 B/(B - 5), g_b =
-// sum over the block of w J r.
+// scatter is taken from the scores of whole blocks, g_b = sum over the block of w J r, and of
+// neighbouring blocks together (Newey and West 1987):
+// A^-1 (sum_b g_b g_b^T + (g_b g_{b+1}^T + g_{b+1} g_b^T)/2) A^-1. The fit has taken 5 degrees of
+// freedom out of the B blocks, which costs B/(B - 5 (1 + cos(2 pi/B))). The slope share squared is
+// due to any M-estimator (Huber 1981, 6.3).
 Eigen::Matrix2d CenterCovariance(const Profiles& profiles,
                                  const Update& update,
-                                 const Matrix5d& normal) {
+                                 const Matrix5d& normal,
+                                 double slope_share) {
   const std::size_t count = update.weight.size();
+  std::vector<Vector5d> scores(kBlocks, Vector5d::Zero());
+  for (std::size_t i = 0; i < count; ++i) {
+    scores[i * kBlocks / count] += update.weight[i] * update.residual_px[i] * profiles.jacobian[i];
+  }
   Matrix5d scatter = Matrix5d::Zero();
   for (std::size_t block = 0; block < kBlocks; ++block) {
-    Vector5d score = Vector5d::Zero();
-    for (std::size_t i = block * count / kBlocks; i < (block + 1) * count / kBlocks; ++i) {
-      score += update.weight[i] * update.residual_px[i] * profiles.jacobian[i];
-    }
-    scatter += score * score.transpose();
+    const Vector5d& own = scores[block];
+    const Vector5d& next = scores[(block + 1) % kBlocks];
+    scatter += own * own.transpose() + 0.5 * (own * next.transpose() + next * own.transpose());
   }
   const Matrix5d inverse = normal.ldlt().solve(Matrix5d::Identity());
-  const double few_blocks = kBlocks / (kBlocks - 5.0);
-  return few_blocks * (inverse * scatter * inverse).topLeftCorner<2, 2>();
+  const double lost = 5 * (1 + std::cos(2 * std::numbers::pi / kBlocks));
+  const double factor = kFewBlocks * kBlocks / (kBlocks - lost) / (slope_share * slope_share);
+  return factor * (inverse * scatter * inverse).topLeftCorner<2, 2>();
 }
 
 Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
@@ -238,7 +258,15 @@ Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
     }
     scatter_px = std::clamp(kNormalMad * Median(residuals), kLeastScatterPx, scatter_px);
   }
-  update.center_covariance = CenterCovariance(profiles, update, normal);
+  double slopes = 0, weights = 1e-12;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double prior = PriorWeight(matches[i], typical);
+    const double z = update.residual_px[i] / (kTukeySigmas * scatter_px);
+    slopes += prior * BiweightSlope(z);
+    weights += prior * Biweight(z);
+  }
+  const double slope_share = std::max(slopes / weights, kLeastSlopeShare);
+  update.center_covariance = CenterCovariance(profiles, update, normal, slope_share);
   return update;
 }
 
@@ -270,7 +298,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
   RimFit fit{start, Eigen::Matrix2d::Identity(), 0};
   double half_px = options.first_half_px;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    const Profiles profiles = SampleProfiles(picture, fit.rim, half_px);
+    const Profiles profiles = SampleProfiles(picture, fit.rim, half_px, options);
     const Rows detrended = WithoutTrend(profiles);
     const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
     if (!shape) return std::nullopt;
@@ -286,8 +314,11 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
     }
     fit.center_covariance = update.center_covariance;
     fit.support = Support(matches, update, start_radius);
+    if (2 * iteration >= options.iterations && fit.support < options.hopeless_support) {
+      return std::nullopt;
+    }
     const bool narrow = half_px <= options.last_half_px;
-    if (narrow && update.change.norm() < kConvergedPx) break;
+    if (narrow && update.change.norm() < options.converged_px) break;
     half_px = std::max(options.last_half_px, kShrink * half_px);
   }
   return fit;
