@@ -38,17 +38,21 @@ double MedianSize(std::vector<double> values) {
   return Quantile(std::move(values), 0.5);
 }
 
+double OffCurve(const FlatPoint& point, const LinearSpline& fit) {
+  const BasisRow basis = EvalBasis(fit.space, point.u);
+  double above = point.v;
+  for (int j = 0; j <= fit.space.degree; ++j) {
+    above -= basis.value[j] * fit.coefficients(basis.first + j);
+  }
+  return point.weight * above;
+}
+
 void Refit(const std::vector<double>& trust, Cleaning& c) {
   std::vector<FlatPoint> weighted = c.points;
   for (size_t i = 0; i < weighted.size(); ++i) weighted[i].weight *= trust[i];
   const LinearSpline fit = FitLinearSpline(weighted, c.space, kStiffness);
   for (size_t i = 0; i < weighted.size(); ++i) {
-    const BasisRow basis = EvalBasis(c.space, c.points[i].u);
-    double s = 0;
-    for (int j = 0; j <= c.space.degree; ++j) {
-      s += basis.value[j] * fit.coefficients(basis.first + j);
-    }
-    c.sigmas[i] = c.points[i].weight * (c.points[i].v - s);
+    c.sigmas[i] = trust[i] > 0 ? fit.residuals[i] / trust[i] : OffCurve(c.points[i], fit);
   }
 }
 
@@ -132,8 +136,9 @@ double FitRobustly(Cleaning& c) {
 
 Cleaning StartCleaning(const EdgeSamples& edge, const Pose& pose, bool is_upper) {
   Cleaning c;
+  const BladeFrame frame(pose, is_upper);
   for (int i = 0; i < edge.size(); ++i) {
-    const Eigen::Vector2d p = ToBladeFrame(pose, edge.points[i], is_upper);
+    const Eigen::Vector2d p = frame(edge.points[i]);
     c.points.push_back({p.x(), p.y(), edge.weights[i] * edge.inflation});
   }
   std::vector<FlatPoint> sorted = c.points;

@@ -11,47 +11,61 @@
 namespace bladecurve {
 namespace {
 
-// Derivatives of a point's whitened distance by the shape: a few columns that are not 0.
+constexpr int kRowSize = kMaxSplineDegree + 1;
+using RowValues = Eigen::Matrix<double, kRowSize, 1>;
+using RowMatrix = Eigen::Matrix<double, kRowSize, kRowSize>;
+
+// Derivatives of a point's whitened distance by the shape: the columns from `first` on that are not
+// 0.
 struct ShapeRow {
   int first = 0;
-  Eigen::VectorXd values;
+  RowValues values = RowValues::Zero();
 };
 
 class ShapeRows {
  public:
-  ShapeRows(const JointModel& model, const JointState& state) : model_(model), state_(state) {
-    if (!model.space) return;
-    coefficients_ =
-        CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
-  }
-  [[nodiscard]] int columns() const { return model_.space ? model_.space->size() : 2; }
-  [[nodiscard]] ShapeRow At(const EdgeSamples& edge, int i, const Pose& pose) const {
-    const double w = edge.weights[i];
-    if (!model_.space) {
-      Pose axis = pose;
-      axis[kUpperAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
-      return {0, w * Eigen::Vector2d(1, ToBladeFrame(axis, edge.points[i], true).x())};
+  ShapeRows(const JointModel& model, const JointState& state)
+      : table_(model.space.value_or(ClampedSpace(1, 0, 1, {}))), is_spline_(model.space) {
+    if (is_spline_) {
+      c_ = CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
     }
-    const SplineDistance d =
-        DistanceFrom(*model_.space, coefficients_.data(), ToBladeFrame(pose, edge.points[i], true));
-    const int size = model_.space->degree + 1;
-    return {d.first, w * Eigen::Map<const Eigen::VectorXd>(d.d_c.data(), size)};
+    columns_ = is_spline_ ? model.space->size() : 2;
+  }
+  [[nodiscard]] int columns() const { return columns_; }
+
+  // The rows of one edge; two for a straight line: 1 and x.
+  [[nodiscard]] std::vector<ShapeRow> Of(const EdgeSamples& edge, Pose pose) const {
+    if (!is_spline_) pose[kUpperAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
+    const BladeFrame frame(pose, true);
+    std::vector<ShapeRow> rows(edge.points.size());
+    for (int i = 0; i < edge.size(); ++i) {
+      const Eigen::Vector2d p = frame(edge.points[i]);
+      ShapeRow& row = rows[static_cast<size_t>(i)];
+      if (is_spline_) {
+        const SplineDistance d = DistanceFrom(table_.At(p.x()), table_.degree(), c_.data(), p.y());
+        row.first = d.first;
+        for (int j = 0; j <= table_.degree(); ++j) row.values(j) = d.d_c[j];
+      } else {
+        row.values.head<2>() << 1, p.x();
+      }
+      row.values *= edge.weights[i];
+    }
+    return rows;
   }
 
  private:
-  const JointModel& model_;
-  const JointState& state_;
-  Eigen::VectorXd coefficients_;
+  BasisTable table_;
+  bool is_spline_;
+  int columns_ = 0;
+  Eigen::VectorXd c_;
 };
 
-Eigen::MatrixXd InverseNormal(const FitData& data, const JointState& state, const ShapeRows& rows) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(rows.columns(), rows.columns());
-  for (size_t p = 0; p < data.photos.size(); ++p) {
-    const EdgeSamples& edge = data.photos[p].upper;
-    for (int i = 0; i < edge.size(); ++i) {
-      const ShapeRow row = rows.At(edge, i, state.poses[p]);
-      const Eigen::Index n = row.values.size();
-      normal.block(row.first, row.first, n, n) += row.values * row.values.transpose();
+// The inverse normal matrix, padded so that every row's block lies inside.
+Eigen::MatrixXd InverseNormal(const std::vector<std::vector<ShapeRow>>& rows, int columns) {
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns + kRowSize, columns + kRowSize);
+  for (const std::vector<ShapeRow>& edge : rows) {
+    for (const ShapeRow& row : edge) {
+      normal.block<kRowSize, kRowSize>(row.first, row.first) += row.values * row.values.transpose();
     }
   }
   normal.diagonal().array() += 1e-13 * normal.diagonal().maxCoeff();  // spans without points
@@ -118,19 +132,22 @@ Influence InfluenceOf(const FitData& data,
                       const JointModel& model,
                       const JointState& state,
                       const EdgeResiduals& residuals) {
-  const ShapeRows rows(model, state);
-  const Eigen::MatrixXd inverse = InverseNormal(data, state, rows);
-  Influence influence{0, 0, 0, 0};
+  const ShapeRows shape(model, state);
+  std::vector<std::vector<ShapeRow>> rows;
   for (size_t p = 0; p < data.photos.size(); ++p) {
+    rows.push_back(shape.Of(data.photos[p].upper, state.poses[p]));
+  }
+  const Eigen::MatrixXd inverse = InverseNormal(rows, shape.columns());
+  Influence influence{0, 0, 0, 0};
+  for (size_t p = 0; p < rows.size(); ++p) {
     const EdgeSamples& edge = data.photos[p].upper;
-    for (int i = 0; i < edge.size(); ++i) {
-      const ShapeRow row = rows.At(edge, i, state.poses[p]);
-      const Eigen::Index n = row.values.size();
-      const double leverage =
-          row.values.dot(inverse.block(row.first, row.first, n, n) * row.values);
+    for (size_t i = 0; i < rows[p].size(); ++i) {
+      const ShapeRow& row = rows[p][i];
+      const RowMatrix block = inverse.block<kRowSize, kRowSize>(row.first, row.first);
+      const double leverage = row.values.dot(block * row.values);
       const double r = edge.weights[i] * residuals.distances[p][i];
       const double rest = std::max(1 - leverage, 1e-9);  // a point that alone holds a coefficient
-      const double cook = r * r * leverage / (rest * rest * rows.columns());
+      const double cook = r * r * leverage / (rest * rest * shape.columns());
       influence.largest_leverage = std::max(influence.largest_leverage, leverage);
       if (cook <= influence.largest_cook) continue;
       influence.largest_cook = cook;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "curvefit/diagnostics.h"
+#include "curvefit/linear_spline.h"
 #include "curvefit/statistics.h"
 #include "vision/refused.h"
 
@@ -136,6 +137,21 @@ std::vector<std::string> JointNames(std::vector<std::string> names,
   return names;
 }
 
+// How much worse the upper edges fit together than each alone, poses free: rms in sigmas of a
+// point.
+double Disagreement(const FitData& data, const JointModel& model, const JointState& state) {
+  double excess = 0, effective = 0;
+  const EdgeResiduals joint = UpperResiduals(data, model, state);
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    const std::vector<FlatPoint> alone = Flatten(data.photos[p].upper, state.poses[p], true);
+    const SplineSpace space =
+        model.space ? *model.space : ClampedSpace(1, alone.front().u, alone.back().u, {});
+    excess -= FitLinearSpline(alone, space).chi2;
+    effective += data.photos[p].upper.effective();
+  }
+  return std::sqrt(std::max(0.0, excess + joint.chi2) / effective);
+}
+
 void Record(const FamilyInput& input,
             const JointModel& model,
             const Attempt& attempt,
@@ -149,6 +165,10 @@ void Record(const FamilyInput& input,
   RecordCriteria(input.data, model, fit);
   RecordPoses(attempt, joint, fit);
   RecordEstimate(joint, all, fit);
+  fit.pose_chi2 = PoseChi2(input.data, model, attempt.result.state);
+  if (input.data.photos.size() > 1) {
+    fit.disagreement = Disagreement(input.data, model, attempt.result.state);
+  }
   fit.residual_tests = TestResiduals(attempt.residuals);
   fit.residual_tests.chi2_per_freedom = fit.chi2 / std::max(fit.freedom, 1.0);
 }
@@ -178,12 +198,13 @@ JointState TaperedStart(const FitData& data, double gain) {
   const PhotoData& photo = data.photos.front();
   Pose axis = photo.start;
   axis[kUpperAngle] = (photo.start[kUpperAngle] + photo.start[kLowerAngle]) / 2;
+  const BladeFrame frame(axis, true);
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& p : photo.upper.points) mean += ToBladeFrame(axis, p, true);
+  for (const Eigen::Vector2d& p : photo.upper.points) mean += frame(p);
   mean /= photo.upper.size();
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   for (const Eigen::Vector2d& p : photo.upper.points) {
-    const Eigen::Vector2d d = ToBladeFrame(axis, p, true) - mean;
+    const Eigen::Vector2d d = frame(p) - mean;
     moments += d * d.transpose();
   }
   const double slope = moments(0, 1) / moments(0, 0);

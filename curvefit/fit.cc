@@ -112,10 +112,11 @@ KnotChoice ChooseSpace(const FitData& data, const FitData& thin, const FitOption
 // The lower edges' points beyond the spline's ends have nothing to be compared with.
 void CutLowerEdges(const SplineSpace& space, FitData& data) {
   for (PhotoData& photo : data.photos) {
+    const BladeFrame frame(photo.start, false);
     EdgeSamples kept;
     kept.inflation = photo.lower.inflation;
     for (int i = 0; i < photo.lower.size(); ++i) {
-      const double u = ToBladeFrame(photo.start, photo.lower.points[i], false).x();
+      const double u = frame(photo.lower.points[i]).x();
       if (u < space.lower() || u > space.upper()) continue;
       kept.points.push_back(photo.lower.points[i]);
       kept.weights.push_back(photo.lower.weights[i]);
@@ -150,9 +151,8 @@ CurveDomain DomainOf(const FitData& data, const SplineSpace& space) {
     widest = std::max(widest, theta);
     Pose axis = photo.start;
     axis[kUpperAngle] -= theta / 2;
-    for (const Eigen::Vector2d& p : photo.upper.points) {
-      x_min = std::min(x_min, ToBladeFrame(axis, p, true).x());
-    }
+    const BladeFrame frame(axis, true);
+    for (const Eigen::Vector2d& p : photo.upper.points) x_min = std::min(x_min, frame(p).x());
   }
   domain.x_min_mm = x_min * data.length_mm;
   domain.x_max_mm = space.upper() * data.length_mm;

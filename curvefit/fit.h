@@ -52,6 +52,8 @@ struct FamilyFit {
   int points = 0, inliers = 0;    // of the upper edges
   double effective_points = 0;    // neighbours are correlated
   double chi2 = kNotSet, freedom = kNotSet;  // of edges and pose observations together
+  double pose_chi2 = kNotSet;                // of the pose observations alone
+  double disagreement = 0;                   // of several photographs: rms, in sigmas of a point
   double sigma_scale = 1;  // > 1: the family misses the edge, and sigma was widened by this
   double condition_number = kNotSet;
   int rank = 0, num_parameters = 0;  // shape and poses

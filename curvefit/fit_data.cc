@@ -228,12 +228,16 @@ FitData PrepareFitData(const std::vector<EdgePoints>& photos) {
   return data;
 }
 
-Eigen::Vector2d ToBladeFrame(const Pose& pose, const Eigen::Vector2d& point, bool is_upper) {
-  const Eigen::Vector2d from_pivot =
-      (1 + pose[kScale]) * point - Eigen::Vector2d(pose[kPivotX], pose[kPivotY]);
+BladeFrame::BladeFrame(const Pose& pose, bool is_upper) {
   const double angle = is_upper ? pose[kUpperAngle] : pose[kLowerAngle];
-  const Eigen::Vector2d turned = Eigen::Rotation2Dd(-angle) * from_pivot;
-  return is_upper ? turned : Eigen::Vector2d(turned.x(), -turned.y());
+  turn_ = Eigen::Rotation2Dd(-angle).toRotationMatrix();
+  if (!is_upper) turn_.row(1) *= -1;
+  shift_ = -turn_ * Eigen::Vector2d(pose[kPivotX], pose[kPivotY]);
+  turn_ *= 1 + pose[kScale];
+}
+
+Eigen::Vector2d BladeFrame::operator()(const Eigen::Vector2d& point) const {
+  return turn_ * point + shift_;
 }
 
 EdgeSamples Thinned(const EdgeSamples& edge, int max_points) {

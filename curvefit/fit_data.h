@@ -58,10 +58,17 @@ struct FitData {
 // or sigmas that are not positive, kEdgeTooShort for an edge of less than three different points.
 [[nodiscard]] FitData PrepareFitData(const std::vector<EdgePoints>& photos);
 
-// A point of the upper edge in its blade's frame; of the lower edge, in the mirrored one.
-[[nodiscard]] Eigen::Vector2d ToBladeFrame(const Pose& pose,
-                                           const Eigen::Vector2d& point,
-                                           bool is_upper);
+// Takes points of a photograph into the frame of its upper blade, or into the mirrored one of its
+// lower blade.
+class BladeFrame {
+ public:
+  BladeFrame(const Pose& pose, bool is_upper);
+  [[nodiscard]] Eigen::Vector2d operator()(const Eigen::Vector2d& point) const;
+
+ private:
+  Eigen::Matrix2d turn_;
+  Eigen::Vector2d shift_;
+};
 
 // The same edge, as means of at most `max_points` groups of neighbours.
 [[nodiscard]] EdgeSamples Thinned(const EdgeSamples& edge, int max_points);

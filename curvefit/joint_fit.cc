@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "curvefit/joint_fit.h"
 
+#include <ceres/cost_function.h>
 #include <ceres/problem.h>
 
 #include <algorithm>
@@ -108,9 +109,12 @@ std::vector<double> Distances(const EdgeSamples& edge,
   if (model.space) {
     const Eigen::VectorXd c =
         CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
+    const BasisTable table(*model.space);
+    const BladeFrame frame(pose, is_upper);
     for (const Eigen::Vector2d& point : edge.points) {
-      const Eigen::Vector2d p = ToBladeFrame(pose, point, is_upper);
-      distances.push_back(DistanceFrom(*model.space, c.data(), p).d + pose[kOffset]);
+      const Eigen::Vector2d p = frame(point);
+      const double d = DistanceFrom(table.At(p.x()), table.degree(), c.data(), p.y()).d;
+      distances.push_back(d + pose[kOffset]);
     }
     return distances;
   }
@@ -118,8 +122,9 @@ std::vector<double> Distances(const EdgeSamples& edge,
   const double slope = state.shape[1] + state.gain * std::tan(half);
   Pose axis = pose;
   axis[kUpperAngle] = axis[kLowerAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
+  const BladeFrame frame(axis, is_upper);
   for (const Eigen::Vector2d& point : edge.points) {
-    const Eigen::Vector2d p = ToBladeFrame(axis, point, is_upper);
+    const Eigen::Vector2d p = frame(point);
     const double above = p.y() - state.shape[0] - slope * p.x();
     distances.push_back(above / std::sqrt(1 + slope * slope) + pose[kOffset]);
   }
@@ -130,6 +135,20 @@ double Chi2(const EdgeSamples& edge, const std::vector<double>& distances) {
   double sum = 0;
   for (int i = 0; i < edge.size(); ++i) sum += std::pow(edge.weights[i] * distances[i], 2);
   return sum;
+}
+
+double PoseChi2(const FitData& data, const JointModel& model, const JointState& state) {
+  double chi2 = 0;
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    const std::unique_ptr<ceres::CostFunction> observations(NewPoseObservations(data.photos[p]));
+    const size_t end = model.space ? 0 : p;
+    const std::array<const double*, 3> parameters = {
+        &state.reaches[end], &state.zeros[end], state.poses[p].data()};
+    Eigen::VectorXd residuals(observations->num_residuals());
+    observations->Evaluate(parameters.data(), residuals.data(), nullptr);
+    chi2 += residuals.squaredNorm();
+  }
+  return chi2;
 }
 
 std::vector<FittedPose> PosesInMm(const FitData& data,

@@ -71,6 +71,11 @@ struct JointEstimate {
 // Sum of squares of the whitened distances.
 [[nodiscard]] double Chi2(const EdgeSamples& edge, const std::vector<double>& distances);
 
+// Sum of squares of the pose observations: pivots, ends, thetas, scales, offsets.
+[[nodiscard]] double PoseChi2(const FitData& data,
+                              const JointModel& model,
+                              const JointState& state);
+
 // The poses as the caller's frames have them, sigmas from the covariance.
 [[nodiscard]] std::vector<FittedPose> PosesInMm(const FitData& data,
                                                 const JointState& state,

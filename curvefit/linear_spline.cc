@@ -27,9 +27,9 @@ struct SparseRow {
   }
 };
 
-SparseRow RowOf(const FlatPoint& point, const SplineSpace& space) {
+SparseRow RowOf(const FlatPoint& point, const SplineSpace& space, const BasisTable& table) {
   SparseRow row;
-  const BasisRow basis = EvalBasis(space, point.u);
+  const BasisRow basis = table.At(point.u);
   for (int j = 0; j <= space.degree; ++j) {
     row.Add(basis.first + j, point.weight * basis.value[j]);
   }
@@ -65,9 +65,10 @@ LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(columns);
   std::vector<SparseRow> rows;
+  const BasisTable table(space);
   rows.reserve(points.size());
   for (const FlatPoint& point : points) {
-    rows.push_back(RowOf(point, space));
+    rows.push_back(RowOf(point, space, table));
     const SparseRow& row = rows.back();
     for (int i = 0; i < row.size; ++i) {
       right(row.columns[i]) += row.values[i] * point.weight * point.v;
@@ -111,8 +112,9 @@ std::vector<FlatPoint> Flatten(const EdgeSamples& edge,
                                int photo) {
   std::vector<FlatPoint> flat;
   flat.reserve(edge.points.size());
+  const BladeFrame frame(pose, is_upper);
   for (int i = 0; i < edge.size(); ++i) {
-    const Eigen::Vector2d in_blade = ToBladeFrame(pose, edge.points[i], is_upper);
+    const Eigen::Vector2d in_blade = frame(edge.points[i]);
     flat.push_back({in_blade.x(), in_blade.y(), edge.weights[i], photo});
   }
   std::sort(

@@ -57,24 +57,32 @@ GainFinding FindGain(const FamilyInput& input, const FamilyFit& spline) {
   return finding;
 }
 
-// One shape for all photographs, or each its own? chi2 of the upper edges in the joint fit against
-// each alone.
-bool PhotographsDisagree(const FamilyInput& input, const FamilyFit& spline) {
-  if (input.data.photos.size() < 2) return false;
-  constexpr double kVisible =
-      0.5;  // a difference below half the scatter of the points matters to nobody
-  return spline.sigma_scale > std::sqrt(1 + kVisible * kVisible);
+// One shape does not explain all photographs, or their pivots, ends and angles contradict each
+// other.
+bool PhotographsDisagree(const FamilyInput& input, const FamilyFit& fit) {
+  const auto photos = static_cast<double>(input.data.photos.size());
+  if (photos < 2) return false;
+  constexpr double kVisible = 0.5;  // less than half the scatter of the points matters to nobody
+  constexpr double kNoAccident =
+      1 - 1e-6;  // of consistent photographs one set in a million is called torn
+  constexpr double kObservations = 7;  // of a pose
+  return fit.disagreement > kVisible ||
+         fit.pose_chi2 > ChiSquareQuantile(kObservations * photos, kNoAccident);
 }
 
-bool Torn(const FamilyFit& spline) { return spline.residual_tests.chi2_per_freedom > 4; }
+// The given theta is not the angle between the distal ends: another definition, or a slip.
+bool GivenThetaApart(const FitData& data) {
+  const std::vector<double> zeros = StartingState(data).zeros;
+  return std::any_of(
+      zeros.begin(), zeros.end(), [](double zero) { return std::abs(zero) > kGivenApart; });
+}
 
-void Warn(const FamilyInput& input, const FamilyFit& spline, BladeFit& report) {
+void Warn(const FamilyInput& input, const FamilyFit& recommended, BladeFit& report) {
   const auto warn = [&](const char* code) { report.warnings.emplace_back(code); };
-  if (PhotographsDisagree(input, spline) || (input.data.photos.size() > 1 && Torn(spline))) {
-    warn("photographs_disagree");
-  }
+  if (PhotographsDisagree(input, recommended)) warn("photographs_disagree");
   if (report.largest_difference_torque > kTorquePart) warn("families_part");
-  if (!spline.converged) warn("not_converged");
+  if (GivenThetaApart(input.data)) warn("theta_given_differs");
+  if (!recommended.converged) warn("not_converged");
 }
 
 }  // namespace
@@ -89,7 +97,7 @@ void Recommend(const FamilyInput& input,
   report.largest_difference_mm = report.difference.largest_mm;
   report.largest_difference_torque = report.difference.largest_torque;
   report.gain = FindGain(input, spline);
-  Warn(input, spline, report);
+  Warn(input, take_tapered ? tapered : spline, report);
   report.recommended = take_tapered ? tapered : spline;
   report.alternatives = {take_tapered ? std::move(spline) : std::move(tapered)};
   report.poses = report.recommended.poses;

@@ -36,9 +36,11 @@ struct SplineDistance {
   std::array<double, kMaxSplineDegree + 1> d_c{};  // by coefficients first, first + 1, ...
   int first = 0;
 };
-[[nodiscard]] SplineDistance DistanceFrom(const SplineSpace& space,
+// Of the point (u, v); `row` holds the basis functions at u.
+[[nodiscard]] SplineDistance DistanceFrom(const BasisRow& row,
+                                          int degree,
                                           const double* coefficients,
-                                          const Eigen::Vector2d& point);
+                                          double v);
 
 // The spline's coefficients from the parameters of the fit, which keep s(u_end) = -u_end
 // tan(zero/2): all but the last coefficient of a spline T, the reach u_end, and the opening that

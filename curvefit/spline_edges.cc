@@ -67,7 +67,7 @@ class EdgeFrame {
 class SplineEdges final : public ceres::CostFunction {
  public:
   SplineEdges(const PhotoData& photo, SplineSpace space, Loss loss, bool mirror)
-      : photo_(photo), space_(std::move(space)), loss_(loss), mirror_(mirror) {
+      : photo_(photo), space_(std::move(space)), table_(space_), loss_(loss), mirror_(mirror) {
     *mutable_parameter_block_sizes() = {space_.size() - 1, 1, 1, kPoseSize};
     set_num_residuals(space_.size() + kPoseSize + 1);
   }
@@ -103,13 +103,13 @@ class SplineEdges final : public ceres::CostFunction {
     double sum = 0;
     for (int i = 0; i < edge.size(); ++i) {
       const Eigen::Vector2d p = frame.InBlade(edge.points[i]);
-      const BasisRow row = EvalBasis(space_, p.x());
-      double s = 0, slope = 0;
+      const BasisRow row = table_.At(p.x());
+      double above = p.y(), slope = 0;
       for (int j = 0; j <= space_.degree; ++j) {
-        s += row.value[j] * coefficients[row.first + j];
+        above -= row.value[j] * coefficients[row.first + j];
         slope += row.slope[j] * coefficients[row.first + j];
       }
-      const double d = (p.y() - s) / std::sqrt(1 + slope * slope);
+      const double d = above / std::sqrt(1 + slope * slope);
       const double r = Soften(loss_, edge.weights[i] * (d + pose[kOffset])).value;
       sum += r * r;
     }
@@ -134,7 +134,8 @@ class SplineEdges final : public ceres::CostFunction {
     int first = -1;
     for (int i = 0; i < edge.size(); ++i) {
       const Eigen::Vector2d p = frame.InBlade(edge.points[i]);
-      const SplineDistance distance = DistanceFrom(space_, coefficients, p);
+      const SplineDistance distance =
+          DistanceFrom(table_.At(p.x()), space_.degree, coefficients, p.y());
       if (distance.first != first) {
         Flush(local, first, frame.angle(), equations);
         first = distance.first;
@@ -211,32 +212,30 @@ class SplineEdges final : public ceres::CostFunction {
 
   const PhotoData& photo_;
   SplineSpace space_;
+  BasisTable table_;
   Loss loss_;
   bool mirror_;
 };
 
 }  // namespace
 
-SplineDistance DistanceFrom(const SplineSpace& space,
-                            const double* coefficients,
-                            const Eigen::Vector2d& point) {
-  const BasisRow row = EvalBasis(space, point.x());
+SplineDistance DistanceFrom(const BasisRow& row, int degree, const double* coefficients, double v) {
   double s = 0, slope = 0, curvature = 0;
-  for (int j = 0; j <= space.degree; ++j) {
+  for (int j = 0; j <= degree; ++j) {
     const double c = coefficients[row.first + j];
     s += row.value[j] * c;
     slope += row.slope[j] * c;
     curvature += row.curvature[j] * c;
   }
   const double g = 1 / std::sqrt(1 + slope * slope);
-  const double above = point.y() - s;
+  const double above = v - s;
   const double by_slope = -above * g * g * g * slope;
   SplineDistance distance;
   distance.first = row.first;
   distance.d = above * g;
   distance.d_v = g;
   distance.d_u = -slope * g + by_slope * curvature;
-  for (int j = 0; j <= space.degree; ++j) {
+  for (int j = 0; j <= degree; ++j) {
     distance.d_c[j] = -g * row.value[j] + by_slope * row.slope[j];
   }
   return distance;

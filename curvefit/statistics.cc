@@ -42,13 +42,14 @@ double CorrelatedNeighbours(const std::vector<double>& residuals) {
       std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
   if (n < 8 || variance <= 0) return 1;
   constexpr size_t kLongest = 500;  // neighbours; longer waves are shape
+  const double noise = 2 / std::sqrt(static_cast<double>(n));
   double sum = 1;
   for (size_t lag = 1; lag < std::min(n / 4, kLongest); ++lag) {
     const double product = std::inner_product(residuals.begin() + static_cast<std::ptrdiff_t>(lag),
                                               residuals.end(),
                                               residuals.begin(),
                                               0.0);
-    if (product <= 0) break;
+    if (product <= noise * variance) break;
     sum += 2 * product / variance;
   }
   return sum;
