@@ -32,10 +32,14 @@ struct FitCommand {
   bool quiet = false, no_times = false;
 };
 
-// -o NAME with or without the ending; without -o the first photograph's stem, in the current
-// folder.
+// -o NAME with or without the ending, or a folder; without -o the current folder. In a folder the
+// file is named after the first photograph.
 std::string OutputName(const FitCommand& command) {
-  if (command.name.empty()) return fs::path(command.photos.front()).stem().string();
+  const std::string stem = fs::path(command.photos.front()).stem().string();
+  if (command.name.empty()) return stem;
+  if (command.name.ends_with('/') || fs::is_directory(command.name)) {
+    return (fs::path(command.name) / stem).string();
+  }
   const std::string ending = ".blade.json";
   const bool ends = command.name.ends_with(ending);
   return ends ? command.name.substr(0, command.name.size() - ending.size()) : command.name;
@@ -57,7 +61,6 @@ std::vector<fs::path> OverlayPaths(const FitCommand& command, const std::string&
   const fs::path given =
       command.overlay.empty() ? fs::path(name + ".overlay.png") : fs::path(command.overlay);
   if (command.photos.size() == 1) return {given};
-  fs::path stem = given;
   const std::string ending = command.overlay.empty() ? ".overlay.png" : given.extension().string();
   const std::string base = given.string().substr(0, given.string().size() - ending.size());
   std::vector<fs::path> paths;
