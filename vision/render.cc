@@ -45,10 +45,11 @@ void Validate(const SceneSpec& scene) {
   const ScissorsSpec& s = scene.scissors;
   Require(s.length_mm > s.heel_mm, "scissors.length_mm", s.length_mm, "above heel_mm");
   Require(s.tip_radius_mm > 0, "scissors.tip_radius_mm", s.tip_radius_mm, "positive");
-  Require(s.shank_length_mm > s.width_mm,
+  Require(s.shank_length_mm > s.joint_mm + s.width_mm,
           "scissors.shank_length_mm",
           s.shank_length_mm,
-          "above width_mm");
+          "above joint_mm + width_mm");
+  Require(s.joint_mm > 0, "scissors.joint_mm", s.joint_mm, "positive");
   Require(scene.sensor.gamma > 0, "sensor.gamma", scene.sensor.gamma, "positive");
 }
 

@@ -88,8 +88,8 @@ Metal::Surface Metal::ShankSurface(const Eigen::Vector2d& p) const {
 }
 
 Eigen::Vector3d Metal::BodyAt(const Eigen::Vector2d& p) const {
-  const double w = scene_.scissors.width_mm;
-  const double joint = SmoothStep(-0.95 * w, -0.75 * w, p.x());
+  const double shank_from = outline_.shank_path[0].x();
+  const double joint = SmoothStep(shank_from, shank_from + 0.2 * scene_.scissors.width_mm, p.x());
   if (joint >= 1) return Reflect(BladeSurface(p));
   if (joint <= 0) return Reflect(ShankSurface(p));
   return joint * Reflect(BladeSurface(p)) + (1 - joint) * Reflect(ShankSurface(p));

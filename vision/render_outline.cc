@@ -105,7 +105,7 @@ Ring Ellipse(const Eigen::Vector2d& center, const Eigen::Vector2d& semi_axes, bo
 // The midline starts behind the joint a little above the pivot and ends below the axis, so that
 // closed rings lie side by side.
 ShankPath ShankPathOf(const ScissorsSpec& spec) {
-  const Eigen::Vector2d start(-0.95 * spec.width_mm, 0.10 * spec.width_mm);
+  const Eigen::Vector2d start(-spec.joint_mm - 0.3 * spec.width_mm, 0.10 * spec.width_mm);
   const Eigen::Vector2d end(-spec.shank_length_mm, -0.5 * spec.shank_mm - 1.0);
   const double reach = (start.x() - end.x()) / 3;
   return {
@@ -167,7 +167,7 @@ BladeOutline MakeBladeOutline(const ScissorsSpec& spec, bool upper) {
   AppendShank(&outline.body, outline.shank_path, outline.shank_half_mm, true);
   AppendShank(&outline.body, outline.shank_path, outline.shank_half_mm, false);
   const Eigen::Vector2d forwards(1, 0);
-  AppendSmooth(&outline.body, forwards, {-0.40 * w, joint_low}, Direction(-0.9));
+  AppendSmooth(&outline.body, forwards, {-spec.joint_mm + 0.2 * w, joint_low}, Direction(-0.9));
   const double heel_slope = std::atan(outline.edge.SlopeAt(outline.edge.from_mm));
   AppendSmooth(&outline.body,
                forwards,

@@ -44,6 +44,7 @@ ScissorsSpec RandomScissors(Dice* dice, Difficulty difficulty) {
     case 1:  // Metzenbaum
       s = {.length_mm = 48,
            .heel_mm = 6,
+           .joint_mm = 10,
            .width_mm = 7.5,
            .tip_radius_mm = 1.0,
            .shank_mm = 4.4,
@@ -55,6 +56,7 @@ ScissorsSpec RandomScissors(Dice* dice, Difficulty difficulty) {
       s = {.length_mm = 30,
            .heel_mm = 5,
            .bow_mm = 0.15,
+           .joint_mm = 7,
            .width_mm = 6.5,
            .tip_radius_mm = 0.45,
            .bevel_mm = 1.0,
@@ -67,6 +69,7 @@ ScissorsSpec RandomScissors(Dice* dice, Difficulty difficulty) {
   const double size = dice->Between(0.92, 1.15);
   s.length_mm *= size * dice->Between(0.93, 1.08);
   s.width_mm *= size;
+  s.joint_mm *= size * dice->Between(0.85, 1.2);
   s.shank_length_mm *= size;
   s.inclination = dice->Between(0.05, 0.11);
   s.bow_mm = dice->Between(-0.3, 0.9) * s.length_mm / 58;

@@ -19,6 +19,7 @@ struct ScissorsSpec {
                          // are a bit hollow
   double skew_mm = 0;    // cubic part of that: more bow near the tip (+) or the heel (-)
   double curve_mm = 0;   // both blades bend to +y by this much: "curved" scissors
+  double joint_mm = 12;  // how far the wide part reaches behind the pivot; the screw sits amid it
   double width_mm = 10;  // of a blade at the pivot
   double tip_radius_mm = 1.2;   // blunt Mayo 1.5, Metzenbaum 1, iris 0.3
   double bevel_mm = 1.6;        // ground band along the edge; 0: none

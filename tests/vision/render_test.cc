@@ -134,7 +134,7 @@ TEST(RenderScene, PutsBothEdgesWhereTheTruthSays) {
   cv::extractChannel(photo.bgr, green, 1);
   cv::Mat1f light;
   green.convertTo(light, CV_32F);
-  constexpr double kMetalIsNotEven = 0.03;  // px; the levels beside the edge are single samples
+  constexpr double kMetalIsNotEven = 0.01;  // px; the levels beside the edge are single samples
   EXPECT_NEAR(MeanOffsetPx(light, photo.truth.upper, 1), 0, kMetalIsNotEven);
   EXPECT_NEAR(MeanOffsetPx(light, photo.truth.lower, -1), 0, kMetalIsNotEven);
 }
