@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
-#include "samples/curve_sigma.h"
+#include "curvefit/bands.h"
 
 namespace bladecurve {
 namespace {
@@ -103,6 +104,7 @@ RigidSpline SplineOf(const EdgeShape& shape) {
 
 QuantityErrors PhiErrors(const FamilyFit& fit, const BladeCurve& truth, double theta_rad) {
   constexpr int kPlaces = 9;
+  const CurveBand band(fit);
   const double from = std::max(fit.curve.domain().x_min_mm, truth.domain().x_min_mm);
   const double to = std::min(fit.curve.domain().x_max_mm, truth.domain().x_max_mm);
   QuantityErrors errors;
@@ -111,7 +113,7 @@ QuantityErrors PhiErrors(const FamilyFit& fit, const BladeCurve& truth, double t
     const double x = from + (to - from) * (i + 0.5) / kPlaces;
     const double error = fit.curve.Eval(x, theta_rad).phi_mm - truth.Eval(x, theta_rad).phi_mm;
     squares += error * error;
-    errors.stated.push_back({error, PhiSigma(fit, x, theta_rad)});
+    errors.stated.push_back({error, band.At(x, theta_rad).phi_mm});
   }
   errors.size = std::sqrt(squares / kPlaces);
   return errors;
@@ -125,19 +127,22 @@ double SharpTorque(const BladeCurve& curve, double theta_rad) {
   return sample.phi_theta_mm_per_rad / sample.phi_x;
 }
 
-QuantityErrors TorqueErrors(const BladeCurve& fitted, const BladeCurve& truth, double theta_rad) {
+QuantityErrors TorqueErrors(const FamilyFit& fit, const BladeCurve& truth, double theta_rad) {
   constexpr int kAngles = 9;
+  const CurveBand band(fit);
+  QuantityErrors errors;
   double squares = 0;
-  int count = 0;
   for (int i = 0; i < kAngles; ++i) {
     const double angle = theta_rad * (1.0 / 3 + 2.0 / 3 * (i + 0.5) / kAngles);
-    const double relative = SharpTorque(fitted, angle) / SharpTorque(truth, angle) - 1;
-    if (!std::isfinite(relative)) continue;  // the contact lies outside what the photograph shows
-    squares += relative * relative;
-    ++count;
+    const double percent = 100 * (SharpTorque(fit.curve, angle) / SharpTorque(truth, angle) - 1);
+    const std::optional<double> sigma = band.TorqueAt(angle);
+    if (!std::isfinite(percent) || !sigma) continue;  // the photograph does not show that contact
+    squares += percent * percent;
+    errors.stated.push_back({percent, 100 * *sigma});
   }
-  if (count == 0) return {};
-  return {.size = 100 * std::sqrt(squares / count), .stated = {}};
+  if (errors.stated.empty()) return errors;
+  errors.size = std::sqrt(squares / static_cast<double>(errors.stated.size()));
+  return errors;
 }
 
 BladeCurve TrueCurve(const SceneTruth& truth) {
@@ -165,7 +170,7 @@ std::array<QuantityErrors, kQuantities> CompareWithTruth(const Analysis& analysi
           ThetaErrors(photo, truth),
           ScaleErrors(photo, truth),
           PhiErrors(fit, true_curve, truth.theta_rad),
-          TorqueErrors(fit.curve, true_curve, truth.theta_rad)};
+          TorqueErrors(fit, true_curve, truth.theta_rad)};
 }
 
 }  // namespace bladecurve
