@@ -64,7 +64,8 @@ std::string KernelText(const BladeKernel& kernel) {
          Field("slope_max", Literal(kernel.slope_max)) +
          Field("u_slope_min", Literal(kernel.u_slope_min)) +
          Field("u_slope_max", Literal(kernel.u_slope_max)) +
-         Field("near_mm", Literal(kernel.near_mm)) + "};\n\n";
+         Field("near_mm", Literal(kernel.near_mm)) + Field("exact_mm", Literal(kernel.exact_mm)) +
+         "};\n\n";
 }
 
 std::vector<double> KnownOrMinusOne(const std::vector<double>& errors, std::size_t size) {

@@ -49,8 +49,8 @@ static inline int SplineContacts(
   const EdgeTurn turn = TurnBy(k, theta);
   unsigned flags = 0u;
   double x_low = k->x_min, x_high = k->x_max, last = k->x_min - 1.0 - same;
-  const SplinePoint low = PointOver(k, &turn, &x_low, &flags),
-                    high = PointOver(k, &turn, &x_high, &flags);
+  const SplinePoint low = PointNear(k, &turn, &x_low, &flags),
+                    high = PointNear(k, &turn, &x_high, &flags);
   int n = 0, row, i;
   for (row = low.row; row <= high.row; ++row) {
     const double centre = k->rows[kRowSize * row];

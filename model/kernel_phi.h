@@ -33,24 +33,26 @@ static inline BladeJet TaperedJet(const BladeKernel* k, double x, double theta) 
   return j;
 }
 
-/* By implicit differentiation: d/dx = (1/advance) d/du along the edge, and 2 phi_theta = x + phi
- * phi_x for a rigid turn, which differentiates to the rest. */
+/* By implicit differentiation: d/dx = (1/advance) d/du along the edge, at a point near x and from
+ * there to x by Taylor's series; and 2 phi_theta = x + phi phi_x for a rigid turn, which
+ * differentiates to the rest. */
 static inline BladeJet SplineJet(const BladeKernel* k, double x, double theta, unsigned* flags) {
   const EdgeTurn turn = TurnBy(k, theta);
-  const SplinePoint p = PointOver(k, &turn, &x, flags);
+  const SplinePoint p = PointNear(k, &turn, &x, flags);
   const double advance = turn.cosine - p.s1 * turn.sine;
   const double per = 1.0 / (advance > kLeastAdvance ? advance : kLeastAdvance);
   const double per3 = per * per * per;
+  const double dx = x - XOfPoint(&turn, p);
+  const double slope = (turn.sine + p.s1 * turn.cosine) * per, bend = 2.0 * p.s2 * per3;
+  const double xxx = (6.0 * p.s3 + 12.0 * p.s2 * p.s2 * turn.sine * per) * per3 * per;
   BladeJet j;
-  double xxx;
   if (p.row == 0 || p.row == k->num_rows - 1) *flags |= BLADECURVE_X_OUTSIDE;
-  j.f = p.u * turn.sine + p.s * turn.cosine;
-  j.x = (turn.sine + p.s1 * turn.cosine) * per;
-  j.xx = 2.0 * p.s2 * per3;
+  j.f = (p.u * turn.sine + p.s * turn.cosine) + dx * (slope + 0.5 * dx * bend);
+  j.x = slope + dx * bend;
+  j.xx = bend + dx * xxx;
   j.t = 0.5 * (x + j.f * j.x);
-  j.xt = 0.5 * (1.0 + j.x * j.x + j.f * j.xx);
+  j.xt = 0.5 * ((1.0 + j.x * j.x) + j.f * j.xx);
   j.tt = 0.5 * (j.t * j.x + j.f * j.xt);
-  xxx = (6.0 * p.s3 + 12.0 * p.s2 * p.s2 * turn.sine * per) * per3 * per;
   j.xxt = 0.5 * (3.0 * j.x * j.xx + j.f * xxx);
   j.xtt = 0.5 * (2.0 * j.x * j.xt + j.t * j.xx + j.f * j.xxt);
   return j;

@@ -24,7 +24,9 @@ typedef struct BladeKernel {
   double chord_offset, chord_slope; /* the straight line between the spline's two ends */
   double slope_min, slope_max;      /* of s', and where it is so */
   double u_slope_min, u_slope_max;
-  double near_mm; /* a Newton step this small is finished by Taylor's series */
+  /* An edge point this near to the wanted x is near enough for Taylor's series to finish, unless
+   * it is as near to the end of its row: then nearness is down to rounding. */
+  double near_mm, exact_mm;
 } BladeKernel;
 
 /* The spline and its Taylor coefficients at u: s, s', s''/2, s'''/6. */
@@ -37,13 +39,10 @@ static inline double Clamp(double value, double low, double high) {
   return value < low ? low : (value > high ? high : value);
 }
 
+/* The rows are few, and comparisons that do not wait for each other are faster than a search. */
 static inline int RowAt(const BladeKernel* k, double u) {
-  int row = 0, count = k->num_rows - 1;
-  while (count > 0) {
-    const int half = (count + 1) / 2;
-    row += k->ends[row + half] <= u ? half : 0;
-    count -= half;
-  }
+  int row = 0, i;
+  for (i = 1; i < k->num_rows; ++i) row += k->ends[i] <= u;
   return row;
 }
 
@@ -71,15 +70,6 @@ static inline SplinePoint PointOnRow(const BladeKernel* k, int row, double u) {
 
 static inline SplinePoint PointAt(const BladeKernel* k, double u) {
   return PointOnRow(k, RowAt(k, u), u);
-}
-
-/* The point a tiny step further, by Taylor's series. */
-static inline SplinePoint Moved(SplinePoint p, double step) {
-  p.u += step;
-  p.s += step * (p.s1 + step * p.s2);
-  p.s1 += step * (2.0 * p.s2 + 3.0 * step * p.s3);
-  p.s2 += 3.0 * step * p.s3;
-  return p;
 }
 
 #endif /* BLADECURVE_KERNEL_SPLINE_H */

@@ -20,6 +20,7 @@ static const double kLeastAdvance = 1e-3;
  * dx/du >= least between u_low and u_high. */
 typedef struct EdgeTurn {
   double cosine, sine;
+  double norm, norm_cosine, norm_sine; /* the same times norm, known before a division is done */
   double least, u_low, u_high;
   int is_whole; /* the whole edge is a graph */
 } EdgeTurn;
@@ -77,10 +78,12 @@ static void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
 
 static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
   const QuarterTangent q = QuarterTangentOf(theta);
-  const double dd = q.den * q.den, nn = q.num * q.num, per = 1.0 / (dd + nn);
   EdgeTurn turn;
-  turn.cosine = (dd - nn) * per;
-  turn.sine = 2.0 * q.num * q.den * per;
+  turn.norm = q.den * q.den + q.num * q.num;
+  turn.norm_cosine = q.den * q.den - q.num * q.num;
+  turn.norm_sine = 2.0 * q.num * q.den;
+  turn.cosine = turn.norm_cosine / turn.norm;
+  turn.sine = turn.norm_sine / turn.norm;
   turn.least = turn.cosine - turn.sine * (turn.sine > 0.0 ? k->slope_max : k->slope_min);
   turn.u_low = -kFarthest;
   turn.u_high = kFarthest;
@@ -93,23 +96,25 @@ static inline double XOfPoint(const EdgeTurn* turn, SplinePoint p) {
   return p.u * turn->cosine - p.s * turn->sine;
 }
 
-/* The step along u that lessens the edge's x by `miss`, by reversion of Taylor's series up to the
- * fourth power; Newton's where that is of no use. */
-static inline double StepBy(const EdgeTurn* turn, SplinePoint p, double miss) {
+/* Whether Taylor's series reaches x from here: near it, on the same row. */
+static inline int IsNear(const BladeKernel* k, const EdgeTurn* turn, SplinePoint p, double x) {
+  const double inner = k->near_mm;
+  const int is_inner = p.u - inner >= k->ends[p.row] && p.u + inner <= k->ends[p.row + 1];
+  return fabs(XOfPoint(turn, p) - x) <= (is_inner ? inner * turn->least : k->exact_mm);
+}
+
+/* The step along u to where the edge is over x: Newton's, and two terms of the reversed Taylor's
+ * series where that is of use. */
+static inline double StepTowards(const EdgeTurn* turn, SplinePoint p, double x) {
   const double per = 1.0 / (turn->cosine - p.s1 * turn->sine);
-  const double step = -miss * per, bend = turn->sine * per * step;
-  const double b = p.s2 * bend, c = p.s3 * step * bend;
-  if (fabs(b) + fabs(c) > 0.1) return step;
-  return step * (1.0 + b * (1.0 + b * (2.0 + 5.0 * b)) + c * (1.0 + 5.0 * b));
+  const double step = (x - XOfPoint(turn, p)) * per;
+  const double bend = p.s2 * (turn->sine * per) * step;
+  return fabs(bend) > 0.1 ? step : step * ((1.0 + bend) + 2.0 * bend * bend);
 }
 
-static inline int IsOnRow(const BladeKernel* k, int row, double u) {
-  return u >= k->ends[row] && u <= k->ends[row + 1];
-}
-
-/* The point of the edge over x, for an x between those of u_low and u_high, from any start:
- * Newton's steps, halving the bracket where they leave it or do not shrink. */
-static SplinePoint SearchPointOver(const BladeKernel* k,
+/* A point of the edge near x, for an x between those of u_low and u_high, from any start: Newton's
+ * steps, halving the bracket where they leave it or do not shrink. */
+static SplinePoint SearchPointNear(const BladeKernel* k,
                                    const EdgeTurn* turn,
                                    double x,
                                    double start) {
@@ -119,17 +124,16 @@ static SplinePoint SearchPointOver(const BladeKernel* k,
   double high = p.u + reach < turn->u_high ? p.u + reach : turn->u_high;
   double last_step = high - low;
   int i;
-  for (i = 0; i < 200; ++i) {
+  for (i = 0; i < 200 && !IsNear(k, turn, p, x); ++i) {
     const double miss = XOfPoint(turn, p) - x;
     const double step = -miss / (turn->cosine - p.s1 * turn->sine);
     double next = p.u + step;
-    if (fabs(step) <= k->near_mm && IsOnRow(k, p.row, next)) return Moved(p, step);
     if (miss > 0.0)
       high = p.u;
     else
       low = p.u;
     if (!(next > low && next < high) || fabs(step) > 0.5 * last_step) next = 0.5 * (low + high);
-    if (next == p.u || next == low || next == high) return p;
+    if (next == p.u || next == low || next == high) break;
     last_step = fabs(next - p.u);
     p = PointAt(k, next);
   }
@@ -159,9 +163,9 @@ static double OverhangBeyond(const BladeKernel* k, const EdgeTurn* turn, double 
   return farthest;
 }
 
-/* The point over x of an edge that is no graph everywhere: where x is beyond the graph, its end,
+/* A point near x of an edge that is no graph everywhere: where x is beyond the graph, its end,
  * with its own x. Flagged there and where another part of the edge hangs over x too. */
-static SplinePoint PointOfPartOver(const BladeKernel* k,
+static SplinePoint PointOfPartNear(const BladeKernel* k,
                                    const EdgeTurn* turn,
                                    double* x,
                                    unsigned* flags) {
@@ -171,7 +175,7 @@ static SplinePoint PointOfPartOver(const BladeKernel* k,
       *x >= OverhangBeyond(k, turn, turn->u_high, 1) || *x >= x_high) {
     *flags |= BLADECURVE_NOT_GRAPH;
   }
-  if (*x > x_low && *x < x_high) return SearchPointOver(k, turn, *x, 0.5 * (low.u + high.u));
+  if (*x > x_low && *x < x_high) return SearchPointNear(k, turn, *x, 0.5 * (low.u + high.u));
   if (*x <= x_low) {
     *x = x_low;
     return low;
@@ -180,25 +184,25 @@ static SplinePoint PointOfPartOver(const BladeKernel* k,
   return high;
 }
 
-/* The point of the edge over x. From the spline's chord two steps nearly always do. */
-static inline SplinePoint PointOver(const BladeKernel* k,
+/* A point of the edge near x. From the spline's chord one step nearly always does. */
+static inline SplinePoint PointNear(const BladeKernel* k,
                                     const EdgeTurn* turn,
                                     double* x,
                                     unsigned* flags) {
-  const double start =
-      (*x + k->chord_offset * turn->sine) / (turn->cosine - k->chord_slope * turn->sine);
+  const double start = (*x * turn->norm + k->chord_offset * turn->norm_sine) /
+                       (turn->norm_cosine - k->chord_slope * turn->norm_sine);
   SplinePoint p;
   int i;
-  if (!turn->is_whole) return PointOfPartOver(k, turn, x, flags);
+  if (!turn->is_whole) return PointOfPartNear(k, turn, x, flags);
   p = PointAt(k, start);
   for (i = 0; i < 4; ++i) {
-    const double step = StepBy(turn, p, XOfPoint(turn, p) - *x);
-    const double next = p.u + step;
-    const int same_row = IsOnRow(k, p.row, next);
-    if (fabs(step) <= k->near_mm && same_row) return Moved(p, step);
-    p = same_row ? PointOnRow(k, p.row, next) : PointAt(k, next);
+    double next;
+    if (IsNear(k, turn, p, *x)) return p;
+    next = p.u + StepTowards(turn, p, *x);
+    p = next >= k->ends[p.row] && next <= k->ends[p.row + 1] ? PointOnRow(k, p.row, next)
+                                                             : PointAt(k, next);
   }
-  return SearchPointOver(k, turn, *x, start);
+  return IsNear(k, turn, p, *x) ? p : SearchPointNear(k, turn, *x, start);
 }
 
 #endif /* BLADECURVE_KERNEL_TURN_H */

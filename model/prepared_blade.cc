@@ -22,7 +22,8 @@ constexpr double kLargestThetaRad = 3.14;  // tan(theta/2) has its pole at pi
 constexpr double kShortestSpan = 1e-9;  // of the whole: rejects knots that were meant to be equal
 constexpr double kEndSlack =
     1e-12;  // a point this near the spline's end (relative) is not beyond it
-constexpr double kNearSpan = 1e-8;  // Taylor's remainder, its third power, is below rounding
+constexpr double kNearSpan = 1e-7;  // Taylor's remainder, of its square, is below rounding
+constexpr double kExact = 4e-16;    // of the farthest knot: rounding of x = u cos - s sin
 
 constexpr double kBeyondAll = 1e12;  // no step towards an x within kFarthest gets there
 
@@ -249,6 +250,8 @@ void Prepare(const RigidSpline& spline, PreparedBlade& blade) {
   kernel.chord_offset =
       spline.coefficients_mm.front() - kernel.chord_slope * spline.knots_mm.front();
   kernel.near_mm = kNearSpan * ShortestSpan(blade);
+  kernel.exact_mm =
+      kExact * std::max(std::abs(spline.knots_mm.front()), std::abs(spline.knots_mm.back()));
   FindSlopeRange(kernel);
 }
 
