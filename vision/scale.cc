@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scale.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "vision/marker_corners.h"
 #include "vision/refused.h"
 #include "vision/sheet_scale.h"
 
@@ -51,53 +49,17 @@ PlaneMap FromDpi(double dpi, const std::string& source) {
                 "it, or give --mm-per-px, --dpi, --length-mm or --marker-mm, or --units px");
 }
 
-// The corners' own sigma knows of noise, not of the raster of the print or of paper that is not
-// quite flat.
-constexpr double kPaperSigmaPx = 0.015;
-
-SquareObservation Observe(const SeenMarker& marker) {
-  return {marker.corners_px, std::hypot(marker.corner_sigma_px, kPaperSigmaPx), std::nullopt};
+// The map that needs no marker, if the options or the file say one.
+std::optional<PlaneMap> UniformMap(const Photo& photo, const ScaleOptions& options) {
+  if (options.pixels) return PlaneMap::Uniform(1, 0, "pixels");
+  if (options.mm_per_px) return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px");
+  if (options.dpi) return FromDpi(*options.dpi, "dpi");
+  if (!photo.metadata().dpi) return std::nullopt;
+  return FromDpi(*photo.metadata().dpi, "file-dpi").WithWarnings({"scale_from_file_dpi"});
 }
 
-std::vector<SeenMarker> Located(const std::vector<SeenMarker>& markers) {
-  std::vector<SeenMarker> located;
-  std::copy_if(
-      markers.begin(), markers.end(), std::back_inserter(located), [](const SeenMarker& m) {
-        return std::isfinite(m.corner_sigma_px);
-      });
-  return located;
-}
-
-[[noreturn]] void RefuseMarkers(bool seen) {
-  throw Refused(Reason::kNoScale,
-                seen ? "scale: a marker is seen, but not its four sides; keep it uncovered, sharp "
-                       "and not overexposed"
-                     : "scale: no marker of DICT_4X4_50 is seen; keep it whole in the picture, "
-                       "uncovered and with white "
-                       "paper around it");
-}
-
-// Markers located again with the lens that the first solution found: it bends their sides.
-SheetSolution SolveWithLens(const Photo& photo, const SheetProblem& problem, ScaleResult* result) {
-  const SheetSolution first = SolveSheet(problem);
-  SheetProblem again = problem;
-  result->markers = RelocateMarkers(photo.grey(), result->tone, result->markers, first.pose.camera);
-  const std::vector<SeenMarker> located = Located(result->markers);
-  for (size_t i = 0; i < located.size(); ++i) {
-    again.squares[i].corners_px = located[i].corners_px;
-  }
-  return SolveSheet(again);
-}
-
-PlaneMap FromMarkers(const Photo& photo, const ScaleOptions& options, ScaleResult* result) {
-  const std::vector<SeenMarker> located = Located(result->markers);
-  if (located.empty()) RefuseMarkers(!result->markers.empty());
-  SheetProblem problem;
-  problem.side_mm = *options.marker_mm;
-  problem.knowledge = KnowCamera(photo, options);
-  for (const SeenMarker& marker : located) problem.squares.push_back(Observe(marker));
-  return SheetMap(SolveWithLens(photo, problem, result),
-                  {options.plane_height_mm, photo.grey().cols, photo.grey().rows, "marker"});
+bool SaysUniform(const ScaleOptions& options) {
+  return options.pixels || options.mm_per_px || options.dpi;
 }
 
 }  // namespace
@@ -107,16 +69,13 @@ ScaleResult FindScale(const Photo& photo, const ScaleOptions& options) {
   ScaleResult result;
   result.tone = SrgbToneCurve();
   if (options.length_mm) return result;
-  if (options.pixels) result.map = PlaneMap::Uniform(1, 0, "pixels");
-  if (options.mm_per_px) result.map = PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px");
-  if (options.marker_mm) {
-    result.markers = FindMarkers(photo.grey(), result.tone, MarkerEffort::kThorough);
-    result.map = FromMarkers(photo, options, &result);
+  if (options.marker_mm) return ScaleFromLooseMarkers(photo, options);
+  if (options.card) return ScaleFromCard(photo, options);
+  if (!SaysUniform(options)) {
+    std::optional<ScaleResult> card = ScaleFromCardIfSeen(photo, options);
+    if (card) return *std::move(card);
   }
-  if (options.dpi) result.map = FromDpi(*options.dpi, "dpi");
-  if (!result.map && photo.metadata().dpi) {
-    result.map = FromDpi(*photo.metadata().dpi, "file-dpi").WithWarnings({"scale_from_file_dpi"});
-  }
+  result.map = UniformMap(photo, options);
   if (!result.map) RefuseWithoutScale();
   return result;
 }

@@ -41,6 +41,8 @@ struct SeenMarker {
 struct ScaleResult {
   std::optional<PlaneMap> map;  // absent only while length_mm waits for the scene
   std::vector<SeenMarker> markers;
+  // Other print on a card (check bar, text), in the stored picture: no part of the scene.
+  std::vector<std::array<Eigen::Vector2d, 4>> print_px;
   ToneCurve tone;  // measured on the markers where there are any, else sRGB
 };
 

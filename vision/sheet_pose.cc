@@ -273,6 +273,31 @@ double LogScale(const SheetPose& pose, double height_mm, const Vector2d& place_p
   return LogScale(PlaneMap::FromGeometry(pose.PlaneAtHeight(height_mm), 0, ""), place_px);
 }
 
+SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
+  const std::vector<SquareObservation>& squares = best.base.problem.squares;
+  SheetSolution solution;
+  solution.pose = PoseOf(best.base, best.x);
+  const VectorXd residuals = Residuals(best.base, best.x);
+  double square_px = 0;
+  for (size_t i = 0; i < squares.size(); ++i) {
+    const double sum = residuals.segment<8>(static_cast<long>(8 * i)).squaredNorm() *
+                       squares[i].sigma_px * squares[i].sigma_px;
+    solution.square_rms_px.push_back(std::sqrt(sum / 8));
+    square_px += sum;
+  }
+  const long corners = static_cast<long>(8 * squares.size());
+  const VectorXd priors = PriorSigmas(best.base.problem, static_cast<int>(best.x.size()));
+  const long with_prior =
+      std::count_if(free.begin(), free.end(), [&](int i) { return priors[i] > 0; });
+  solution.surplus = static_cast<int>(corners - static_cast<long>(free.size()));
+  const long degrees = solution.surplus + with_prior;
+  solution.rms_px = std::sqrt(square_px / static_cast<double>(corners));
+  solution.reduced_chi2 = degrees > 0 ? best.cost / static_cast<double>(degrees) : std::nan("");
+  solution.spread_mm = best.x[kSpread];
+  AddSigmaPoints(best, free, &solution);
+  return solution;
+}
+
 void CheckProblem(const SheetProblem& problem) {
   if (problem.squares.empty()) throw std::invalid_argument("SolveSheet: no squares");
   if (!(problem.side_mm > 0)) throw std::invalid_argument("SolveSheet: side_mm must be positive");
@@ -302,36 +327,25 @@ SheetSolution SolveSheet(const SheetProblem& given) {
   CheckProblem(given);
   SheetProblem problem = given;
   // The square that carries the sheet frame should be the one seen best.
-  if (LiesAnywhere(problem))
-    std::swap(problem.squares.front(), problem.squares[LargestSquare(problem.squares)]);
+  const size_t frame = LiesAnywhere(problem) ? LargestSquare(problem.squares) : 0;
+  std::swap(problem.squares.front(), problem.squares[frame]);
   const Minimum start = StartFrom(problem, SheetHomography(problem));
   const std::vector<int> free = FreeUnknowns(problem, static_cast<int>(start.x.size()));
   const Minimum one = Minimise(start, free);
   const Minimum other = Minimise(TiltedTheOtherWay(one), free);
   const Minimum& best = other.cost < one.cost ? other : one;
-  SheetSolution solution;
-  solution.pose = PoseOf(best.base, best.x);
+  SheetSolution solution = Describe(best, free);
+  std::swap(solution.square_rms_px.front(), solution.square_rms_px[frame]);
   if (!best.x.allFinite() || !(solution.pose.CameraHeightMm() > 0)) {
     throw Refused(Reason::kNoScale,
                   "scale: the markers' corners fit no camera above the sheet; is the picture "
                   "mirrored or cut?");
   }
-  const long corners = static_cast<long>(8 * problem.squares.size());
-  const VectorXd residuals = Residuals(best.base, best.x);
-  double square_px = 0;
-  for (long i = 0; i < corners; ++i) {
-    const double px = residuals[i] * problem.squares[static_cast<size_t>(i / 8)].sigma_px;
-    square_px += px * px / static_cast<double>(corners);
-  }
-  const VectorXd priors = PriorSigmas(problem, static_cast<int>(best.x.size()));
-  const long with_prior =
-      std::count_if(free.begin(), free.end(), [&](int i) { return priors[i] > 0; });
-  solution.surplus = static_cast<int>(corners - static_cast<long>(free.size()));
-  const long degrees = solution.surplus + with_prior;
-  solution.rms_px = std::sqrt(square_px);
-  solution.reduced_chi2 = degrees > 0 ? best.cost / static_cast<double>(degrees) : std::nan("");
-  solution.spread_mm = best.x[kSpread];
-  AddSigmaPoints(best, free, &solution);
+  // The two tilts explain the corners about equally well: lengths are as uncertain as they differ.
+  const Minimum& rival = &best == &one ? other : one;
+  const double odds = std::exp(0.5 * (best.cost - rival.cost));
+  solution.rival = PoseOf(rival.base, rival.x);
+  solution.rival_share = odds / (1 + odds);
   return solution;
 }
 
@@ -340,9 +354,13 @@ double RelativeSigma(const SheetSolution& solution, const LengthPlace& place) {
   for (const Vector2d& px : place.places_px) {
     for (const auto& [plus, minus] : solution.shifted) {
       const double half =
-          0.5 * (LogScale(plus, place.height_mm, px) - LogScale(minus, place.height_mm, px));
+          (LogScale(plus, place.height_mm, px) - LogScale(minus, place.height_mm, px)) /
+          (2 * kShift);
       variance += half * half;
     }
+    const double by_tilt = LogScale(solution.rival, place.height_mm, px) -
+                           LogScale(solution.pose, place.height_mm, px);
+    variance += solution.rival_share * (1 - solution.rival_share) * by_tilt * by_tilt;
     const double by_height = LogScale(solution.pose, place.height_mm + place.height_sigma_mm, px) -
                              LogScale(solution.pose, place.height_mm, px);
     variance += by_height * by_height;

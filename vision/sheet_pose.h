@@ -52,11 +52,14 @@ struct SheetSolution {
   // The pose moved by plus and minus a fixed share of a standard deviation along each principal
   // axis of its covariance.
   std::vector<std::pair<SheetPose, SheetPose>> shifted;
+  SheetPose rival;         // the sheet tilted the other way, solved for as well
+  double rival_share = 0;  // its probability, given the corners
   double spread_mm = 0;
-  double rms_px = 0;           // of the corners' coordinates
-  double reduced_chi2 = 1;     // 1: corners scatter as they should; NaN without surplus
-  int surplus = 0;             // observations beyond unknowns: at 0 a low rms proves nothing
-  double log_focal_sigma = 0;  // what the corners leave of it
+  std::vector<double> square_rms_px;  // of each square's corners, in the problem's order
+  double rms_px = 0;                  // of the corners' coordinates
+  double reduced_chi2 = 1;            // 1: corners scatter as they should; NaN without surplus
+  int surplus = 0;                    // observations beyond unknowns: at 0 a low rms proves nothing
+  double log_focal_sigma = 0;         // what the corners leave of it
 };
 
 // Least squares over all corners, with camera and lens within what is known of them. Throws

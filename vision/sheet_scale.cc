@@ -4,6 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vision/card.h"
+#include "vision/marker_corners.h"
+#include "vision/refused.h"
+#include "vision/sheet_pose.h"
+#include "vision/tone_from_markers.h"
 
 namespace bladecurve {
 namespace {
@@ -18,6 +28,8 @@ constexpr double kUnknownFocal =
 constexpr double kUnknownFocalPerSide = 1.2;
 constexpr double kUnknownK1 = 0.02;  // cameras correct their lenses to half a percent at the corner
 
+constexpr double kInkSpreadMm = 0.05;  // of laser and inkjet prints on plain paper, each side
+
 constexpr double kGivenHeightMm = 0.1;    // of a height measured with a caliper or a ruler
 constexpr double kUnknownHeightMm = 2.0;  // cutting edges lie 0.5 to 4 mm above the table
 
@@ -29,7 +41,7 @@ std::vector<Eigen::Vector2d> InnerGrid(int width, int height) {
   return places;
 }
 
-std::vector<std::string> Warnings(const SheetSolution& solution, const SheetMapOptions& options) {
+std::vector<std::string> Warnings(const SheetSolution& solution, const ScaleOptions& options) {
   // Nearer than this, a blade 2 mm above the sheet looks 0.8 % larger than what lies on it.
   constexpr double kNearMm = 250;
   // A sheet bowed by 1 mm moves corners by some pixels; tone and paper stay below a third of a
@@ -47,8 +59,7 @@ std::vector<std::string> Warnings(const SheetSolution& solution, const SheetMapO
   return warnings;
 }
 
-}  // namespace
-
+// What the camera is known to be: CALIB.json, else EXIF's focal length, else what most cameras are.
 CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
   const int width = photo.grey().cols, height = photo.grey().rows;
   if (options.camera)
@@ -59,14 +70,188 @@ CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
   return {CentredCamera(guess, width, height), kUnknownFocal, kUnknownK1};
 }
 
-PlaneMap SheetMap(const SheetSolution& solution, const SheetMapOptions& options) {
+PlaneMap MapOf(const SheetSolution& solution, const Photo& photo, const ScaleOptions& options) {
   const double height_mm = options.plane_height_mm.value_or(0);
-  const LengthPlace place{InnerGrid(options.width, options.height),
+  const LengthPlace place{InnerGrid(photo.grey().cols, photo.grey().rows),
                           height_mm,
                           options.plane_height_mm ? kGivenHeightMm : kUnknownHeightMm};
-  return PlaneMap::FromGeometry(
-             solution.pose.PlaneAtHeight(height_mm), RelativeSigma(solution, place), options.source)
+  return PlaneMap::FromGeometry(solution.pose.PlaneAtHeight(height_mm),
+                                RelativeSigma(solution, place),
+                                options.marker_mm ? "marker" : "card")
       .WithWarnings(Warnings(solution, options));
+}
+
+bool IsLocated(const SeenMarker& marker) { return std::isfinite(marker.corner_sigma_px); }
+
+// The corners' own sigma knows of noise, not of the raster of the print or of paper that is not
+// quite flat.
+constexpr double kPaperSigmaPx = 0.015;
+
+using ProblemFrom = std::function<SheetProblem(const std::vector<SeenMarker>&)>;
+
+struct Solved {
+  ScaleResult result;  // without a map yet
+  SheetSolution solution;
+};
+
+// Tone curve from the markers' sides, then the sheet, then both once more with the lens just found:
+// it bends the sides. The picture is read anew only where one of them matters.
+Solved Solve(const Photo& photo, std::vector<SeenMarker> markers, const ProblemFrom& problem) {
+  const cv::Mat& grey = photo.grey();
+  Solved solved;
+  solved.result.tone = MeasureToneCurve(grey, markers);
+  if (solved.result.tone.measured) {
+    markers = RelocateMarkers(grey, solved.result.tone, markers, std::nullopt);
+  }
+  const SheetSolution straight = SolveSheet(problem(markers));
+  solved.result.markers = RelocateMarkers(grey, solved.result.tone, markers, straight.pose.camera);
+  solved.solution = SolveSheet(problem(solved.result.markers));
+  return solved;
+}
+
+[[noreturn]] void RefuseMarkers(const std::vector<SeenMarker>& markers) {
+  throw Refused(
+      Reason::kNoScale,
+      markers.empty()
+          ? "scale: no marker of DICT_4X4_50 is seen; keep it whole in the picture, uncovered and "
+            "with white paper around it"
+          : "scale: a marker is seen, but not its four sides; keep it uncovered, sharp and not "
+            "overexposed");
+}
+
+SheetProblem LooseProblem(const std::vector<SeenMarker>& markers,
+                          double side_mm,
+                          const CameraKnowledge& camera) {
+  SheetProblem problem;
+  problem.side_mm = side_mm;
+  problem.knowledge = camera;
+  for (const SeenMarker& marker : markers) {
+    if (!IsLocated(marker)) continue;
+    problem.squares.push_back(
+        {marker.corners_px, std::hypot(marker.corner_sigma_px, kPaperSigmaPx), std::nullopt});
+  }
+  if (problem.squares.empty()) RefuseMarkers(markers);
+  return problem;
+}
+
+SheetProblem CardProblem(const std::vector<SeenMarker>& markers,
+                         const Card& card,
+                         const CameraKnowledge& camera) {
+  SheetProblem problem;
+  problem.side_mm = card.marker_mm;
+  problem.spread_sigma_mm = kInkSpreadMm;
+  problem.knowledge = camera;
+  for (const SeenMarker& marker : markers) {
+    const Card::Marker* const printed = card.Find(marker.id);
+    if (!IsLocated(marker) || printed == nullptr) continue;
+    problem.squares.push_back({marker.corners_px,
+                               std::hypot(marker.corner_sigma_px, kPaperSigmaPx),
+                               card.MarkerCorners(*printed)});
+  }
+  if (problem.squares.empty()) RefuseMarkers(markers);
+  return problem;
+}
+
+Card Scaled(Card card, double print_scale) {
+  card.marker_mm *= print_scale;
+  for (Card::Marker& marker : card.markers) marker.centre_mm *= print_scale;
+  for (auto& area : card.print_mm) {
+    for (double& value : area) value *= print_scale;
+  }
+  return card;
+}
+
+// Markers of the card, each of which is seen once: two of the same number mean a second sheet.
+std::vector<SeenMarker> MarkersOf(const Card& card, const std::vector<SeenMarker>& markers) {
+  std::vector<SeenMarker> own;
+  for (const SeenMarker& marker : markers) {
+    const auto same = [&](const SeenMarker& other) { return other.id == marker.id; };
+    if (card.Find(marker.id) != nullptr && std::count_if(markers.begin(), markers.end(), same) == 1)
+      own.push_back(marker);
+  }
+  return own;
+}
+
+// Leaves out markers that lie where the others say they cannot: misread, or on a fold.
+std::vector<SeenMarker> WithoutMisplaced(std::vector<SeenMarker> markers,
+                                         const ProblemFrom& problem) {
+  constexpr size_t kEnough = 4;       // fewer cannot outvote one
+  constexpr double kMisplacedPx = 4;  // paper that is merely bent stays below
+  for (;;) {
+    std::erase_if(markers, [](const SeenMarker& marker) { return !IsLocated(marker); });
+    if (markers.size() < kEnough) return markers;
+    const std::vector<double> rms = SolveSheet(problem(markers)).square_rms_px;
+    const auto worst = std::max_element(rms.begin(), rms.end());
+    if (*worst < kMisplacedPx) return markers;
+    markers.erase(markers.begin() + (worst - rms.begin()));
+  }
+}
+
+std::vector<std::array<Eigen::Vector2d, 4>> PrintInPicture(const Card& card,
+                                                           const SheetPose& pose) {
+  const PlaneMap sheet = PlaneMap::FromGeometry(pose.PlaneAtHeight(0), 0, "card");
+  std::vector<std::array<Eigen::Vector2d, 4>> areas;
+  for (const auto& [x, y, width, height] : card.print_mm) {
+    areas.push_back({sheet.ImageFromPlane({x, y + height}),
+                     sheet.ImageFromPlane({x + width, y + height}),
+                     sheet.ImageFromPlane({x + width, y}),
+                     sheet.ImageFromPlane({x, y})});
+  }
+  return areas;
+}
+
+Solved SolveCard(const Photo& photo,
+                 const ScaleOptions& options,
+                 const Card& printed,
+                 const std::vector<SeenMarker>& seen) {
+  const Card card = Scaled(printed, options.print_scale);
+  const CameraKnowledge camera = KnowCamera(photo, options);
+  const ProblemFrom problem = [&](const std::vector<SeenMarker>& markers) {
+    return CardProblem(markers, card, camera);
+  };
+  Solved solved = Solve(photo, WithoutMisplaced(MarkersOf(card, seen), problem), problem);
+  solved.result.print_px = PrintInPicture(card, solved.solution.pose);
+  solved.result.map = MapOf(solved.solution, photo, options);
+  return solved;
+}
+
+std::vector<Card> BuiltInCards() { return {BuiltInCard(Paper::kA4), BuiltInCard(Paper::kLetter)}; }
+
+}  // namespace
+
+ScaleResult ScaleFromLooseMarkers(const Photo& photo, const ScaleOptions& options) {
+  const std::vector<SeenMarker> markers =
+      FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
+  const CameraKnowledge camera = KnowCamera(photo, options);
+  Solved solved = Solve(photo, markers, [&](const std::vector<SeenMarker>& seen) {
+    return LooseProblem(seen, *options.marker_mm, camera);
+  });
+  solved.result.map = MapOf(solved.solution, photo, options);
+  return std::move(solved.result);
+}
+
+ScaleResult ScaleFromCard(const Photo& photo, const ScaleOptions& options) {
+  const std::vector<Card> cards =
+      *options.card == "default" ? BuiltInCards() : std::vector<Card>{ReadCard(*options.card)};
+  const std::vector<SeenMarker> markers =
+      FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
+  const std::optional<Card> card = CardInView(cards, markers);
+  if (!card) RefuseMarkers(markers);
+  return SolveCard(photo, options, *card, markers).result;
+}
+
+std::optional<ScaleResult> ScaleFromCardIfSeen(const Photo& photo, const ScaleOptions& options) {
+  // Two markers that fit the layout this well are no coincidence.
+  constexpr size_t kMinMarkers = 2;
+  constexpr double kFitsPx = 2;
+  const std::vector<SeenMarker> markers =
+      FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kQuick);
+  const std::optional<Card> card = CardInView(BuiltInCards(), markers);
+  if (!card || MarkersOf(*card, markers).size() < kMinMarkers) return std::nullopt;
+  const Solved solved = SolveCard(photo, options, *card, markers);
+  if (solved.solution.square_rms_px.size() < kMinMarkers || solved.solution.rms_px > kFitsPx)
+    return std::nullopt;
+  return solved.result;
 }
 
 }  // namespace bladecurve

@@ -3,25 +3,22 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "vision/photo.h"
-#include "vision/plane_map.h"
 #include "vision/scale.h"
-#include "vision/sheet_pose.h"
 
 namespace bladecurve {
 
-// What the camera is known to be: CALIB.json, else EXIF's focal length, else what most cameras are.
-[[nodiscard]] CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options);
+// Scale from markers of known size lying anywhere in the plane. Throws Refused{kNoScale} if none
+// can be used.
+[[nodiscard]] ScaleResult ScaleFromLooseMarkers(const Photo& photo, const ScaleOptions& options);
 
-// Map of the plane of the cutting edges from a solved sheet, with its uncertainty and its warnings.
-struct SheetMapOptions {
-  std::optional<double> plane_height_mm;
-  int width = 0, height = 0;  // of the stored picture
-  std::string source;         // "marker", "card"
-};
-[[nodiscard]] PlaneMap SheetMap(const SheetSolution& solution, const SheetMapOptions& options);
+// Scale from the card that options.card names. Throws Refused{kNoScale} if none of its markers can
+// be used, std::invalid_argument if its description cannot be read.
+[[nodiscard]] ScaleResult ScaleFromCard(const Photo& photo, const ScaleOptions& options);
+
+// The same from a built-in card, if a quick look finds one beyond doubt; std::nullopt else.
+[[nodiscard]] std::optional<ScaleResult> ScaleFromCardIfSeen(const Photo& photo,
+                                                             const ScaleOptions& options);
 
 }  // namespace bladecurve

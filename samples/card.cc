@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/card.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "samples/commands.h"
+#include "samples/output_files.h"
+#include "vision/card_drawing.h"
+#include "vision/png_writer.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CardCommand {
+  std::string output = "card.svg", paper = "a4", json;
+  double dpi = 600;  // laser printers' own raster
+};
+
+int RunCard(const CardCommand& command) {
+  const Card card = BuiltInCard(command.paper == "a4" ? Paper::kA4 : Paper::kLetter);
+  const CardDrawing drawing = DrawCard(card);
+  const std::string kind = fs::path(command.output).extension().string();
+  if (kind == ".svg") {
+    WriteFileWhole(command.output, CardSvg(drawing));
+  } else if (kind == ".pdf") {
+    WriteFileWhole(command.output, CardPdf(drawing));
+  } else if (kind == ".png") {
+    WritePng(command.output, CardPicture(drawing, command.dpi), {command.dpi});
+  } else {
+    throw std::invalid_argument("-o: " + command.output + " ends in none of .svg, .pdf and .png");
+  }
+  if (!command.json.empty()) WriteFileWhole(command.json, CardText(card));
+  std::cout << command.output << ": print it at 100 % and check that the bar is 100 mm long\n";
+  return kExitOk;
+}
+
+}  // namespace
+
+void AddCard(CLI::App& app, int* exit_code) {
+  const auto command = std::make_shared<CardCommand>();
+  CLI::App* subcommand =
+      app.add_subcommand("card", "Write a sheet to print and lay under the scissors");
+  subcommand->add_option("-o,--output", command->output, "card.svg, card.pdf or card.png")
+      ->capture_default_str();
+  subcommand->add_option("--paper", command->paper, "a4 or letter")
+      ->check(CLI::IsMember({"a4", "letter"}))
+      ->capture_default_str();
+  subcommand->add_option("--dpi", command->dpi, "of a PNG")
+      ->check(CLI::Range(150, 1200))
+      ->capture_default_str();
+  subcommand->add_option(
+      "--json", command->json, "also write the card's description, for fit --card FILE");
+  subcommand->callback([command, exit_code] { *exit_code = RunCard(*command); });
+}
+
+}  // namespace bladecurve
