@@ -109,9 +109,17 @@ double InlierScale(const std::vector<double>& sigmas, double scale) {
   return std::max(1.0, MedianSize(inside) / kMedianOfHalfNormal);
 }
 
-// Tukey's biweight by reweighting, from the curve that the largest minority supports. Returns the
-// scatter.
-double FitRobustly(Cleaning& c) {
+// Where a few points only are off, the plain fit is a good start; otherwise the curve that the
+// largest minority supports. Returns the scatter.
+double StartRobustly(double scale, Cleaning& c) {
+  constexpr double kFew = 0.05, kHardlyMoved = 1.5;
+  const auto off = std::count_if(c.sigmas.begin(), c.sigmas.end(), [&](double s) {
+    return std::abs(s) > kRejectSigmas * scale;
+  });
+  if (static_cast<double>(off) < kFew * static_cast<double>(c.sigmas.size()) &&
+      scale < kHardlyMoved) {
+    return scale;
+  }
   const double centre = c.points[c.points.size() / 2].u;
   const Eigen::Vector4d start = BestSupported(c.points, centre);
   for (size_t i = 0; i < c.points.size(); ++i) {
@@ -120,11 +128,20 @@ double FitRobustly(Cleaning& c) {
   }
   std::vector<double> sizes = c.sigmas;
   for (double& s : sizes) s = std::abs(s);
-  double scale = std::max(1.0, Quantile(std::move(sizes), kSupport));
+  return std::max(1.0, Quantile(std::move(sizes), kSupport));
+}
+
+// Tukey's biweight by reweighting, until the scatter no longer changes. Returns the scatter.
+double FitRobustly(double scale, Cleaning& c) {
+  scale = StartRobustly(scale, c);
   constexpr int kRounds = 12;
   std::vector<double> trust(c.points.size());
   for (int round = 0; round < kRounds; ++round) {
+    const double last = scale;
     scale = InlierScale(c.sigmas, scale);
+    constexpr double kSettled = 0.01;
+    constexpr int kFewest = 3;
+    if (round >= kFewest && std::abs(scale - last) < kSettled * last) break;
     for (size_t i = 0; i < trust.size(); ++i) {
       const double t = c.sigmas[i] / (kTukeySigmas * scale);
       trust[i] = std::abs(t) < 1 ? 1 - t * t : 0;
@@ -209,7 +226,7 @@ CleanReport CleanEdge(EdgeSamples& edge, const Pose& pose, bool is_upper, bool r
   const bool suspicious = std::any_of(c.sigmas.begin(), c.sigmas.end(), beyond);
   constexpr int kFewest = 6;  // with fewer points a majority means nothing
   if (reject && suspicious && edge.size() >= kFewest) {
-    scale = FitRobustly(c);
+    scale = FitRobustly(scale, c);
   } else {
     scale = std::numeric_limits<double>::infinity();
   }

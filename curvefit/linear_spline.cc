@@ -15,32 +15,46 @@ constexpr double kPoseSlack = 0.05;
 constexpr double kRidge = 1e-13;
 constexpr int kPoseColumns = 3;  // offset, turn, shift along u
 
-// The columns of one point: its basis functions, then the motion of its photograph.
-struct SparseRow {
-  std::array<int, kMaxSplineDegree + 1 + kPoseColumns> columns;
-  std::array<double, kMaxSplineDegree + 1 + kPoseColumns> values;
-  int size = 0;
+constexpr int kWidth = kMaxSplineDegree + 1;
 
-  void Add(int column, double value) {
-    columns[size] = column;
-    values[size++] = value;
-  }
+// The columns of one point: its basis functions from `first` on (0 beyond the degree), and the
+// motion of its photograph.
+struct SparseRow {
+  int first = 0, pose = -1;  // pose: first of three columns; -1 for the first photograph
+  Eigen::Matrix<double, kWidth, 1> basis;
+  Eigen::Vector3d motion;
 };
 
-SparseRow RowOf(const FlatPoint& point, const SplineSpace& space, const BasisTable& table) {
-  SparseRow row;
+SparseRow RowOf(const FlatPoint& point, int first_pose, const BasisTable& table) {
   const BasisRow basis = table.At(point.u);
-  for (int j = 0; j <= space.degree; ++j) {
-    row.Add(basis.first + j, point.weight * basis.value[j]);
-  }
+  SparseRow row;
+  row.first = basis.first;
+  row.basis = point.weight * Eigen::Map<const Eigen::Matrix<double, kWidth, 1>>(basis.value.data());
   if (point.photo > 0) {
-    const int first = space.size() + kPoseColumns * (point.photo - 1);
-    row.Add(first, point.weight);
-    row.Add(first + 1, point.weight * point.u);
-    row.Add(first + 2, point.weight * point.slope);
+    row.pose = first_pose + kPoseColumns * (point.photo - 1);
+    row.motion = point.weight * Eigen::Vector3d(1, point.u, point.slope);
   }
   return row;
 }
+
+// Normal equations; the lower triangle of the matrix is what counts. kWidth columns of padding
+// after the coefficients, so that every row's block lies inside.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+
+  explicit NormalEquations(Eigen::Index size)
+      : matrix(Eigen::MatrixXd::Zero(size, size)), right(Eigen::VectorXd::Zero(size)) {}
+
+  void Add(const SparseRow& row, double value) {
+    matrix.block<kWidth, kWidth>(row.first, row.first) += row.basis * row.basis.transpose();
+    right.segment<kWidth>(row.first) += value * row.basis;
+    if (row.pose < 0) return;
+    matrix.block<3, kWidth>(row.pose, row.first) += row.motion * row.basis.transpose();
+    matrix.block<3, 3>(row.pose, row.pose) += row.motion * row.motion.transpose();
+    right.segment<3>(row.pose) += value * row.motion;
+  }
+};
 
 void AddStiffness(double stiffness, int coefficients, Eigen::MatrixXd& normal) {
   const double weight = stiffness * normal.diagonal().head(coefficients).mean();
@@ -61,34 +75,29 @@ int LastPhoto(const std::vector<FlatPoint>& points) {
 LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
                              const SplineSpace& space,
                              double stiffness) {
-  const int columns = space.size() + kPoseColumns * LastPhoto(points);
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(columns);
+  const int first_pose = space.size() + kWidth;
+  const int pose_columns = kPoseColumns * LastPhoto(points);
+  NormalEquations equations(first_pose + pose_columns);
   std::vector<SparseRow> rows;
-  const BasisTable table(space);
   rows.reserve(points.size());
+  const BasisTable table(space);
   for (const FlatPoint& point : points) {
-    rows.push_back(RowOf(point, space, table));
-    const SparseRow& row = rows.back();
-    for (int i = 0; i < row.size; ++i) {
-      right(row.columns[i]) += row.values[i] * point.weight * point.v;
-      for (int j = 0; j < row.size; ++j) {
-        normal(row.columns[i], row.columns[j]) += row.values[i] * row.values[j];
-      }
-    }
+    rows.push_back(RowOf(point, first_pose, table));
+    equations.Add(rows.back(), point.weight * point.v);
   }
-  normal.diagonal().tail(columns - space.size()).array() += 1 / (kPoseSlack * kPoseSlack);
+  Eigen::MatrixXd& normal = equations.matrix;
+  normal.diagonal().tail(pose_columns).array() += 1 / (kPoseSlack * kPoseSlack);
   if (stiffness > 0) AddStiffness(stiffness, space.size(), normal);
   normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
-  const Eigen::VectorXd solution = normal.ldlt().solve(right);
+  const Eigen::VectorXd solution = normal.ldlt().solve(equations.right);
 
   LinearSpline fit{space, solution.head(space.size()), {}, 0};
   fit.residuals.reserve(points.size());
   for (size_t k = 0; k < points.size(); ++k) {
-    double residual = points[k].weight * points[k].v;
-    for (int i = 0; i < rows[k].size; ++i) {
-      residual -= rows[k].values[i] * solution(rows[k].columns[i]);
-    }
+    const SparseRow& row = rows[k];
+    double residual =
+        points[k].weight * points[k].v - row.basis.dot(solution.segment<kWidth>(row.first));
+    if (row.pose >= 0) residual -= row.motion.dot(solution.segment<3>(row.pose));
     fit.residuals.push_back(residual);
     fit.chi2 += residual * residual;
   }

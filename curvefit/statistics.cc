@@ -42,15 +42,15 @@ double CorrelatedNeighbours(const std::vector<double>& residuals) {
       std::inner_product(residuals.begin(), residuals.end(), residuals.begin(), 0.0);
   if (n < 8 || variance <= 0) return 1;
   constexpr size_t kLongest = 500;  // neighbours; longer waves are shape
+  constexpr size_t kEach =
+      16;  // lags one by one; later ones in growing steps, where the function is smooth
   const double noise = 2 / std::sqrt(static_cast<double>(n));
   double sum = 1;
-  for (size_t lag = 1; lag < std::min(n / 4, kLongest); ++lag) {
-    const double product = std::inner_product(residuals.begin() + static_cast<std::ptrdiff_t>(lag),
-                                              residuals.end(),
-                                              residuals.begin(),
-                                              0.0);
+  for (size_t lag = 1; lag < std::min(n / 4, kLongest); lag += 1 + lag / kEach) {
+    const auto shifted = residuals.begin() + static_cast<std::ptrdiff_t>(lag);
+    const double product = std::inner_product(shifted, residuals.end(), residuals.begin(), 0.0);
     if (product <= noise * variance) break;
-    sum += 2 * product / variance;
+    sum += 2 * static_cast<double>(1 + lag / kEach) * product / variance;
   }
   return sum;
 }
