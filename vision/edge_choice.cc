@@ -9,6 +9,7 @@
 #include "vision/edge_band.h"
 #include "vision/edge_line.h"
 #include "vision/edge_steps.h"
+#include "vision/robust_statistics.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double kBackgroundPx = 10;  // seen beyond the search range, to know the background
 constexpr double kBladePx = 8;        // the same inwards
+constexpr int kThinning = 2;          // samples of the guess to one that the first look takes
 constexpr float kForbidden = -1;      // score of a place where the edge cannot be
 constexpr float kLooseBend = 0.25F;  // the guess wanders about the edge by a row every few stations
 constexpr float kStiffBend =
@@ -88,13 +90,26 @@ std::vector<float> Scores(const Survey& survey,
   return scores;
 }
 
+// Every second sample: enough for a first look.
+EdgePath Thinned(const EdgePath& path) {
+  EdgePath thin;
+  thin.blade_on_left = path.blade_on_left;
+  for (size_t i = 0; i < path.points.size(); i += kThinning) {
+    thin.points.push_back(path.points[i]);
+    thin.tangents.push_back(path.tangents[i]);
+    thin.normals.push_back(path.normals[i]);
+    thin.curvatures.push_back(path.curvatures[i]);
+  }
+  return thin;
+}
+
 // The guess wanders about the edge; along any line that runs with the blade the picture can be
 // averaged over more columns. The clearest line serves, whichever it is.
 Survey Straightened(const cv::Mat& grey, const EdgePath& guess, double search_px) {
   constexpr double kStiffness =
       400;                          // bends within 25 stations are the line's own, not the guess's
   constexpr double kSmoothing = 3;  // px
-  const Survey rough = Take(grey, guess, {}, search_px, {4, 4});
+  const Survey rough = Take(grey, Thinned(guess), {}, search_px, {2, 2});
   const std::vector<float> scores = Scores(rough, [&](int station, int row) {
     return std::abs(rough.Across(row)) <= search_px ? rough.map.clear[rough.map.At(station, row)]
                                                     : kForbidden;
@@ -102,7 +117,8 @@ Survey Straightened(const cv::Mat& grey, const EdgePath& guess, double search_px
   std::vector<double> rows =
       SmoothRows(rough.map, FindBestLine(rough.map, scores, kLooseBend), kStiffness);
   for (double& row : rows) row = rough.Across(row);
-  const std::vector<double> offsets = Spread(rows, rough.map.layout.spacing, guess.size());
+  const std::vector<double> offsets =
+      Spread(rows, kThinning * rough.map.layout.spacing, guess.size());
   EdgePath path = SmoothPath(Shifted(guess, offsets), guess.blade_on_left, kSmoothing);
   return Take(grey, std::move(path), offsets, search_px, {4, 9});
 }

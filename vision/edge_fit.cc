@@ -11,44 +11,20 @@
 #include "vision/edge_band.h"
 #include "vision/edge_levels.h"
 #include "vision/edge_windows.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr int kSketchRounds =
-    4;  // on every third sample: from 1.5 px off and a blur wrong by 2 to within 0.05 px
-constexpr int kSketchStride = 3;
+constexpr int kSketchRounds = 5;  // from 1.5 px off and a blur wrong by 2 to within 0.05 px,
+constexpr int kSketchStride = 6;  // on every sixth sample
+constexpr double kFirstShare =
+    0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
+constexpr int kImproveStride = 2;
+constexpr int kNoiseStride = 2 * EdgeWindows::kStretch;
 constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
 
 size_t Index(int i) { return static_cast<size_t>(i); }
-
-// Standard deviation without the outliers. Not from a median: in a smooth picture most values are
-// rounded to the same.
-double RobustSigma(const std::vector<double>& deviations) {
-  constexpr double kSigmaPerMean = 1.2533, kOutlier = 4;
-  double sum = 0;
-  for (const double deviation : deviations) sum += std::abs(deviation);
-  const double limit =
-      kOutlier * kSigmaPerMean * sum / std::max(static_cast<double>(deviations.size()), 1.0);
-  double squares = 0, count = 0;
-  for (const double deviation : deviations) {
-    if (std::abs(deviation) > limit) continue;
-    squares += deviation * deviation;
-    ++count;
-  }
-  return std::sqrt(squares / std::max(count, 1.0));
-}
-
-double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight) {
-  std::sort(value_and_weight.begin(), value_and_weight.end());
-  double total = 0, passed = 0;
-  for (const auto& [value, weight] : value_and_weight) total += weight;
-  for (const auto& [value, weight] : value_and_weight) {
-    passed += weight;
-    if (2 * passed >= total) return value;
-  }
-  return 0;
-}
 
 // Noise may differ between metal and cloth, and does once gamma is undone.
 struct SideNoise {
@@ -68,48 +44,65 @@ struct PreparedPixel {
 class Fitter {
  public:
   Fitter(const cv::Mat& grey, const ToneCurve& tone, const EdgeFitOptions& options)
-      : grey_(grey), tone_(tone), options_(options), blur_(options.blur_px) {}
+      : grey_(grey), tone_(tone), options_(options), blur_(kFirstShare * options.blur_px) {}
 
   EdgeFit Run(const std::vector<Eigen::Vector2d>& start, bool blade_on_left) {
-    constexpr double kStartSmoothing = 2;  // px
-    path_ = SmoothPath(start, blade_on_left, kStartSmoothing);
-    for (int round = 0; round < kSketchRounds; ++round) Improve(kSketchStride);
-    Improve(1);
+    constexpr double kStartSmoothing = 2, kSmoothing = 1;  // px; what was fitted is smooth already
+    Take(SmoothPath(start, blade_on_left, kStartSmoothing));
+    for (int round = 0; round < kSketchRounds; ++round) Improve(kSketchStride, round > 0);
+    before_ = offsets_;
+    Take(SmoothPath(Shifted(path_, offsets_), blade_on_left, kSmoothing));
+    Improve(kImproveStride, true);
     Solve(1, true);
     return Finish();
   }
 
  private:
-  void Improve(int stride) {
-    Solve(stride, false);
-    MeasureNoise(stride);
-    UpdateBlur();
-    Move();
-  }
-
-  void Solve(int stride, bool blur_known) {
+  void Take(EdgePath path) {
+    path_ = std::move(path);
+    offsets_.assign(path_.points.size(), 0.0);
     inner_px_ = AlongPath(options_.inner_px);
     band_ = GatherPixels(grey_, tone_, path_, {InnerReach(), OuterReach()});
+  }
+
+  void Improve(int stride, bool placed) {
+    Solve(stride, false);
+    MeasureNoise();
+    if (placed) UpdateBlur();  // an edge out of place looks blurred
+    Advance();
+  }
+
+  void Solve(int stride, bool last) {
+    kept_.reserve(last ? band_.pixels.size() : 0);
     windows_ = EdgeWindows(path_.size());
     windows_.Distrust(misfit_);
     for (int i = 0; i < band_.size(); i += stride) {
-      for (const PreparedPixel& pixel : Prepare(i, 0))
+      for (const PreparedPixel& pixel : Prepare(i)) {
         windows_.Add(i, pixel.terms, pixel.light, pixel.weight);
+      }
+      if (last) kept_.insert(kept_.end(), prepared_.begin(), prepared_.end());
     }
-    windows_.Solve(options_.model_slopes, blur_known);
+    LevelVector precision = LevelVector::Zero();
+    if (last) precision[kSpread] = kFixed;  // the blur is known by now
+    if (!options_.model_slopes) {
+      precision[kBladeSlope] = precision[kGroundSlope] = precision[kGroundBend] = kFixed;
+    }
+    windows_.Solve(precision);
+    if (options_.model_slopes) windows_.Solve(precision + windows_.SupportedSlopes());
   }
 
-  // The pixels of sample i, the edge lying `offset` out of the path.
-  const std::vector<PreparedPixel>& Prepare(int i, double offset) {
+  // The pixels of sample i, the edge lying offsets_[i] out of the path.
+  const std::vector<PreparedPixel>& Prepare(int i) {
     prepared_.clear();
     const BlurredStep step(path_.normals[Index(i)], blur_);
     const double variance = TotalBlurVariance(blur_);
-    // Blur moves the half-way level of a curved edge towards the centre of curvature, by variance /
+    // Blur moves the half-way level of a curved edge towards its centre of curvature: variance /
     // 2R.
     const double bend =
         options_.correct_curvature ? 0.5 * path_.curvatures[Index(i)] * variance : 0;
+    const double shift = bend - offsets_[Index(i)];
     for (int p = band_.begin[Index(i)]; p < band_.begin[Index(i) + 1]; ++p) {
-      const double across = band_.pixels[Index(p)].across + bend - offset;
+      const double across = band_.pixels[Index(p)].across + shift;
       const StepSample sample = step.At(across);
       prepared_.push_back(
           {band_.pixels[Index(p)].light,
@@ -148,29 +141,29 @@ class Fitter {
     return reach;
   }
 
-  // What the levels leave over, on plain blade and plain background; and where they leave over too
-  // much.
-  void MeasureNoise(int stride) {
+  // What the levels leave over on plain blade and plain background, and where it is too much.
+  void MeasureNoise() {
     constexpr double kPlain = 0.02;  // share of the other side
-    std::vector<double> blade, ground, squares(Index(windows_.stretches()), 0.0), counts(squares);
-    for (int i = 0; i < band_.size(); i += stride) {
+    std::vector<double> blade, ground, misfit;
+    for (int i = 0; i < band_.size(); i += kNoiseStride) {
       const LevelVector levels = windows_.LevelsAt(i);
-      for (const PreparedPixel& pixel : Prepare(i, 0)) {
+      double squares = 0;
+      for (const PreparedPixel& pixel : Prepare(i)) {
         const double rest = pixel.light - levels.dot(pixel.terms), step = pixel.terms[kGround];
         if (step < kPlain) blade.push_back(rest);
         if (step > 1 - kPlain) ground.push_back(rest);
-        squares[Index(EdgeWindows::StretchOf(i))] += pixel.weight * rest * rest;
-        counts[Index(EdgeWindows::StretchOf(i))] += 1;
+        squares += pixel.weight * rest * rest;
       }
+      misfit.push_back(squares / std::max(static_cast<double>(prepared_.size()), 1.0));
     }
     if (!blade.empty()) noise_.blade = std::max(RobustSigma(blade), kLeastNoise);
     if (!ground.empty()) noise_.ground = std::max(RobustSigma(ground), kLeastNoise);
-    for (size_t s = 0; s < squares.size(); ++s) squares[s] /= std::max(counts[s], 1.0);
-    misfit_ = std::move(squares);
+    misfit_ = std::move(misfit);
   }
 
   void UpdateBlur() {
-    constexpr double kBlurFactor = 2;  // a wider step is another thing than the blade's border
+    // A much wider step is another thing than the blade's border.
+    constexpr double kLeastShare = 0.5, kMostShare = 1.5, kMargin = 0.25;  // px
     constexpr double kPriorInformation =
         30;  // 1/px^2; windows that know less together do not change the blur
     std::vector<std::pair<double, double>> steps{{options_.blur_px - blur_, kPriorInformation}};
@@ -179,27 +172,26 @@ class Fitter {
                          window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
     }
     const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_, 0.6 * blur_);
-    blur_ =
-        std::clamp(blur_ + step, options_.blur_px / kBlurFactor, options_.blur_px * kBlurFactor);
+    blur_ = std::clamp(
+        blur_ + step, kLeastShare * options_.blur_px, kMostShare * options_.blur_px + kMargin);
   }
 
-  // Takes the path to where the windows see the edge, remembering how far that is from the start.
-  void Move() {
-    constexpr double kSmoothing = 1;  // px; the offsets are smooth already
-    const std::vector<double> step = Trend();
-    std::vector<double> moved;
-    for (int i = 0; i < path_.size(); ++i) moved.push_back(MovedAt(i) + step[Index(i)]);
-    moved_ = std::move(moved);
-    path_ = SmoothPath(Shifted(path_, step), path_.blade_on_left, kSmoothing);
+  void Advance() {
+    const std::vector<double> step = Step();
+    for (size_t i = 0; i < step.size(); ++i) offsets_[i] += step[i];
   }
 
+  // How far the edge has moved from the start already.
   [[nodiscard]] double MovedAt(int i) const {
-    if (moved_.empty()) return 0;
-    return moved_[std::min(Index(i) * moved_.size() / Index(path_.size()), moved_.size() - 1)];
+    const double before =
+        before_.empty()
+            ? 0
+            : before_[std::min(Index(i) * before_.size() / offsets_.size(), before_.size() - 1)];
+    return before + offsets_[Index(i)];
   }
 
-  // Offsets of the edge from the path, one per sample, from the windows.
-  [[nodiscard]] std::vector<double> Trend() const {
+  // How far the windows see the edge from where it was taken to be, one per sample.
+  [[nodiscard]] std::vector<double> Step() const {
     constexpr double kMostStep =
         1.5;  // px a round; beyond, the expansion to first order means nothing
     constexpr double kMostMove = 2.5;    // px in all; further off lies another transition
@@ -233,22 +225,22 @@ class Fitter {
   EdgeFit Finish() {
     EdgeFit fit;
     fit.seen = SeenShare();
-    const std::vector<double> trend = Trend();
     fit.blur_px = blur_;
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
-    for (int i = 0; i < band_.size(); ++i) fit.slices.push_back(FitSlice(i, trend[Index(i)]));
+    for (int i = 0; i < band_.size(); ++i) fit.slices.push_back(FitSlice(i));
     fit.path = std::move(path_);
     return fit;
   }
 
-  EdgeSlice FitSlice(int i, double trend) {
+  EdgeSlice FitSlice(int i) {
     const LevelVector levels = windows_.LevelsAt(i);
     EdgeSlice slice;
     slice.contrast = levels[kGround] - levels[kBlade];
     slice.ground = levels[kGround];
     double information = 0, push = 0;
-    for (const PreparedPixel& pixel : Prepare(i, trend)) {
+    for (int p = band_.begin[Index(i)]; p < band_.begin[Index(i) + 1]; ++p) {
+      const PreparedPixel& pixel = kept_[Index(p)];
       const double rest = pixel.light - levels.dot(pixel.terms),
                    gradient = slice.contrast * pixel.terms[kShift];
       information += pixel.weight * gradient * gradient;
@@ -257,7 +249,7 @@ class Fitter {
     // Where a slice says next to nothing it takes after its neighbours: a blade is smooth to that
     // much.
     constexpr double kRoughness = 0.5;  // px
-    slice.offset_px = trend + push / (information + 1 / (kRoughness * kRoughness));
+    slice.offset_px = offsets_[Index(i)] + push / (information + 1 / (kRoughness * kRoughness));
     slice.sigma_px = information > 0
                          ? 1 / std::sqrt(information * windows_.Nearest(i).kept_information)
                          : std::numeric_limits<double>::infinity();
@@ -271,11 +263,12 @@ class Fitter {
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
-  std::vector<double> inner_px_;  // to the blade's inner transition, one per sample
-  std::vector<PreparedPixel> prepared_;
+  std::vector<double> inner_px_;                // to the blade's inner transition, one per sample
+  std::vector<PreparedPixel> prepared_, kept_;  // of one sample; of all in the last round
   EdgeWindows windows_{0};
-  std::vector<double> misfit_;  // chi-square per pixel of stretches of the last round
-  std::vector<double> moved_;   // of the path from its start, px
+  std::vector<double> misfit_;   // chi-square per pixel of stretches of the last round
+  std::vector<double> offsets_;  // of the edge from the path, one per sample
+  std::vector<double> before_;   // of the path from the start, evenly spaced
 };
 
 }  // namespace

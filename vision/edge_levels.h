@@ -39,9 +39,8 @@ using LevelMatrix = Eigen::Matrix<double, kLevelTerms, kLevelTerms>;
 
 // Weighted normal equations of a stretch of edge; those of two stretches add up.
 struct LevelMoments {
-  LevelMatrix gram = LevelMatrix::Zero();
-  LevelVector right = LevelVector::Zero();
-  double square = 0;  // sum w light^2
+  // sum w v v' over the pixels, v being the terms and, last, the light
+  Eigen::Matrix<double, kLevelTerms + 1, kLevelTerms + 1> products = decltype(products)::Zero();
   double pixels = 0;  // how many
 
   void Add(const LevelVector& terms, double light, double weight);

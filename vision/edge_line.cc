@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "vision/edge_path.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -64,15 +65,12 @@ double ClearShare(const StepMap& map, const StepLine& line) {
 }
 
 double TypicalHeight(const StepMap& map, const StepLine& line) {
-  std::vector<float> heights;
+  std::vector<double> heights;
   for (int station = 0; station < map.stations; ++station) {
     const size_t at = map.At(station, line.rows[static_cast<size_t>(station)]);
     if (map.clear[at] > kClear) heights.push_back(map.height[at]);
   }
-  if (heights.empty()) return 0;
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return Median(std::move(heights));
 }
 
 std::vector<double> SmoothRows(const StepMap& map, const StepLine& line, double stiffness) {

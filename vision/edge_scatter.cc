@@ -11,6 +11,7 @@
 #include "vision/edge_curve.h"
 #include "vision/edge_path.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -18,14 +19,6 @@ namespace {
 constexpr double kMostBlur = 5;  // px; beyond, the position is a matter of taste
 
 size_t Index(int i) { return static_cast<size_t>(i); }
-
-double MedianAbsolute(std::vector<double> values) {
-  if (values.empty()) return 0;
-  for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // Neighbouring slices combined by their information; the slices are about a pixel long.
 std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point) {
@@ -62,11 +55,8 @@ std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points, double spacin
     y.push_back(point.point_px.y());
     weights.push_back(point.inlier ? 1 / (point.sigma_px * point.sigma_px) : 0.0);
   }
-  std::vector<double> sorted(weights);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
   const double stiffness =
-      std::max(*middle, 1e-6) * std::pow(kLength / spacing_px / (2 * std::numbers::pi), 4);
+      std::max(Median(weights), 1e-6) * std::pow(kLength / spacing_px / (2 * std::numbers::pi), 4);
   x = SmoothValues(x, weights, stiffness);
   y = SmoothValues(y, weights, stiffness);
   std::vector<double> scatter;
@@ -142,7 +132,9 @@ double ToneSigma(const EdgeFit& fit, const ToneCurve& tone) {
   constexpr double kUsualGamma = 2.2, kDarkest = 0.004;  // one grey level of sRGB
   std::vector<double> shifts;
   const double exponent = 1 + tone.gamma_sigma / kUsualGamma;
-  for (const EdgeSlice& slice : fit.slices) {
+  constexpr size_t kStride = 16;  // the levels change slowly
+  for (size_t i = 0; i < fit.slices.size(); i += kStride) {
+    const EdgeSlice& slice = fit.slices[i];
     const double ground = std::clamp(slice.ground, kDarkest, 1.0),
                  blade = std::clamp(slice.ground - slice.contrast, kDarkest, 1.0);
     // Light that is taken for half-way between the two levels when the exponent is off by one

@@ -6,15 +6,18 @@
 #include <array>
 #include <cmath>
 
+#include "vision/robust_statistics.h"
+
 namespace bladecurve {
 namespace {
 
 // Difference of the light on two sides, smoothed over about a photograph's blur.
 constexpr std::array<double, 4> kRise = {-0.25, -0.5, 0.5, 0.25};
-constexpr double kOwnVariance = 0.65;  // rows^2: what pixel box, interpolation and kRise add to a step's width
-constexpr double kLeastBlur = 0.4;     // px; sharper photographs are undersampled
-constexpr int kFlank = 2;   // rows from a step to where its width is judged
-constexpr int kBeyond = 3;  // rows from a sharp step to where it is over
+constexpr double kOwnVariance =
+    0.65;  // rows^2: what pixel box, interpolation and kRise add to a step's width
+constexpr double kLeastBlur = 0.4;  // px; sharper photographs are undersampled
+constexpr int kFlank = 2;           // rows from a step to where its width is judged
+constexpr int kBeyond = 3;          // rows from a sharp step to where it is over
 
 void AverageColumns(const StraightBand& band, int center, int reach, std::vector<float>& mean) {
   std::fill(mean.begin(), mean.end(), 0.0F);
@@ -38,14 +41,6 @@ void FindHeights(const StraightBand& band, StepMap& map) {
       map.height[map.At(station, row)] = std::isfinite(height) ? static_cast<float>(height) : 0.0F;
     }
   }
-}
-
-double Percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 // One place in the map and its neighbours across the band, all counted positive in the direction of
@@ -109,7 +104,7 @@ double BackgroundResponse(const StepMap& map, int background_row) {
   }
   constexpr double kSigmaPerMedian = 1.4826;
   constexpr double kLeastResponse = 1e-3;  // a quarter of a grey level
-  return std::max(kSigmaPerMedian * Percentile(std::move(differences), 0.5) / std::sqrt(2.0),
+  return std::max(kSigmaPerMedian * Median(std::move(differences)) / std::sqrt(2.0),
                   kLeastResponse);
 }
 
@@ -126,7 +121,7 @@ double SharpVariance(const StepMap& map) {
       variances.push_back(place.Variance());
     }
   });
-  return variances.empty() ? 1.5 : Percentile(std::move(variances), kShare);
+  return variances.empty() ? 1.5 : Quantile(std::move(variances), kShare);
 }
 
 double Clearness(const Place& place, double background_response, double sharp_variance) {

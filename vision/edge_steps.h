@@ -22,7 +22,7 @@ struct StepMap {
   std::vector<float>
       clear;  // 0 to 1: a sharp step that stands out of texture and noise, at its peak
   double background_response = 0;  // typical height that texture and noise reach
-  double blur_px = 0;              // Gaussian sigma of the sharper steps, pixel box apart; good to a third
+  double blur_px = 0;  // Gaussian sigma of the sharper steps, pixel box apart; good to a third
 
   [[nodiscard]] size_t At(int station, int row) const {
     return static_cast<size_t>(station) * static_cast<size_t>(rows) + static_cast<size_t>(row);

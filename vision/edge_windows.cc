@@ -3,18 +3,18 @@
 #include "vision/edge_windows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr int kStretch = 4;           // samples whose normal equations are kept together
+constexpr int kStretch = EdgeWindows::kStretch;
 constexpr int kStretchesPerStep = 2;  // from one window to the next
 constexpr int kReach = 6;             // stretches to either side of a window's centre
 constexpr int kStep = kStretch * kStretchesPerStep;
 constexpr double kOverlap = (2.0 * kReach + 1) / kStretchesPerStep;  // windows that share a stretch
-constexpr std::array<LevelTerm, 3> kSlopes = {kBladeSlope, kGroundSlope, kGroundBend};
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
@@ -29,48 +29,33 @@ EdgeWindows::EdgeWindows(int samples)
       moments_(Index((samples + kStretch - 1) / kStretch)),
       trust_(moments_.size(), 1.0) {}
 
-int EdgeWindows::StretchOf(int sample) { return sample / kStretch; }
-
 void EdgeWindows::Add(int sample, const LevelVector& terms, double light, double weight) {
-  moments_[Index(StretchOf(sample))].Add(terms, light, weight);
+  moments_[Index(sample / kStretch)].Add(terms, light, weight);
 }
 
 void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
   constexpr double kUsual = 2.5;  // times the median: what texture does
   if (chi_square.empty()) return;
-  std::vector<double> sorted(chi_square);
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double usual = kUsual * Median(chi_square);
   for (size_t s = 0; s < trust_.size(); ++s) {
     const double excess =
-        chi_square[s * chi_square.size() / trust_.size()] / std::max(kUsual * *middle, 1e-12);
+        chi_square[s * chi_square.size() / trust_.size()] / std::max(usual, 1e-12);
     trust_[s] = excess > 1 ? 1 / (excess * excess) : 1;
   }
 }
 
-void EdgeWindows::SolveWith(const LevelVector& precision) {
+void EdgeWindows::Solve(const LevelVector& precision) {
   fits_.clear();
-  for (int center = 0; center < stretches(); center += kStretchesPerStep) {
+  for (int center = 0; center < static_cast<int>(moments_.size()); center += kStretchesPerStep) {
     LevelMoments sum;
-    const int last = std::min(center + kReach, stretches() - 1);
+    const int last = std::min(center + kReach, static_cast<int>(moments_.size()) - 1);
     for (int s = std::max(center - kReach, 0); s <= last; ++s)
       sum.Add(moments_[Index(s)], trust_[Index(s)]);
     fits_.push_back(SolveLevels(sum, precision));
   }
 }
 
-void EdgeWindows::Solve(bool slopes, bool blur_known) {
-  LevelVector precision = LevelVector::Zero();
-  if (blur_known) precision[kSpread] = kFixed;
-  if (slopes) {
-    SolveWith(precision);
-    precision += SlopePrecision(fits_, kOverlap);
-  } else {
-    for (const LevelTerm term : kSlopes) precision[term] = kFixed;
-  }
-  if (!slopes || precision[kBladeSlope] + precision[kGroundSlope] + precision[kGroundBend] > 0)
-    SolveWith(precision);
-}
+LevelVector EdgeWindows::SupportedSlopes() const { return SlopePrecision(fits_, kOverlap); }
 
 const LevelFit& EdgeWindows::Nearest(int sample) const {
   const long nearest = std::lround(WindowPosition(sample));

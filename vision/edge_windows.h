@@ -12,16 +12,22 @@ namespace bladecurve {
 // in each. A value "along the edge" has one entry a sample.
 class EdgeWindows {
  public:
+  static constexpr int kStretch = 4;  // samples whose pixels are kept together
+
   explicit EdgeWindows(int samples);
 
   void Add(int sample, const LevelVector& terms, double light, double weight);
 
-  // Takes stretches of 4 samples whose pixels fit worse than their like out of the balance;
+  // Takes stretches whose pixels fit worse than their like out of the balance;
   // chi_square: per pixel, of the stretches of an earlier round, evenly spaced.
   void Distrust(const std::vector<double>& chi_square);
 
-  // Levels of every window. Slopes are kept only where the windows together support them.
-  void Solve(bool slopes, bool blur_known);
+  // Levels of every window, the terms held to zero by their precision (edge_levels.h).
+  void Solve(const LevelVector& precision);
+
+  // The precision that keeps slopes only where the windows together support them; after a Solve
+  // that left them free.
+  [[nodiscard]] LevelVector SupportedSlopes() const;
 
   [[nodiscard]] const std::vector<LevelFit>& fits() const { return fits_; }
   [[nodiscard]] const LevelFit& Nearest(int sample) const;
@@ -29,12 +35,7 @@ class EdgeWindows {
   [[nodiscard]] std::vector<double> AlongTheEdge(const std::vector<double>& of_windows) const;
   [[nodiscard]] int CenterSample(size_t window) const;  // the sample a window is centred on
 
-  [[nodiscard]] int stretches() const { return static_cast<int>(moments_.size()); }
-  [[nodiscard]] static int StretchOf(int sample);
-
  private:
-  void SolveWith(const LevelVector& precision);
-
   int samples_;
   std::vector<LevelMoments> moments_;  // of stretches
   std::vector<double> trust_;

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <utility>
+#include <vector>
+
+namespace bladecurve {
+
+// All return 0 for no values.
+
+// The value that `share` of the values lie below; share in [0, 1].
+[[nodiscard]] double Quantile(std::vector<double> values, double share);
+[[nodiscard]] double Median(std::vector<double> values);
+[[nodiscard]] double MedianAbsolute(std::vector<double> values);
+[[nodiscard]] double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight);
+
+// Standard deviation about zero without the outliers. Not from a median: in a smooth picture most
+// grey values are rounded to the same.
+[[nodiscard]] double RobustSigma(const std::vector<double>& deviations);
+
+}  // namespace bladecurve
