@@ -79,6 +79,7 @@ void AddCommands(CLI::App& app, int* exit_code) {
   AddCatalog(app, exit_code);
   AddTorque(app, exit_code);
   AddValidate(app, exit_code);
+  AddCard(app, exit_code);
 }
 
 int Run(int argc, char** argv) {
