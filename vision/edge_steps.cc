@@ -121,7 +121,7 @@ double SharpVariance(const StepMap& map) {
       variances.push_back(place.Variance());
     }
   });
-  return variances.empty() ? 1.5 : Quantile(std::move(variances), kShare);
+  return variances.empty() ? 1.5 : SampleQuantile(std::move(variances), kShare);
 }
 
 double Clearness(const Place& place, double background_response, double sharp_variance) {

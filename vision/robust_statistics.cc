@@ -7,7 +7,7 @@
 
 namespace bladecurve {
 
-double Quantile(std::vector<double> values, double share) {
+double SampleQuantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   const double position = share * static_cast<double>(values.size() - 1);
   const auto at = values.begin() + std::lround(position);
@@ -15,7 +15,7 @@ double Quantile(std::vector<double> values, double share) {
   return *at;
 }
 
-double Median(std::vector<double> values) { return Quantile(std::move(values), 0.5); }
+double Median(std::vector<double> values) { return SampleQuantile(std::move(values), 0.5); }
 
 double MedianAbsolute(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);

@@ -10,7 +10,7 @@ namespace bladecurve {
 // All return 0 for no values.
 
 // The value that `share` of the values lie below; share in [0, 1].
-[[nodiscard]] double Quantile(std::vector<double> values, double share);
+[[nodiscard]] double SampleQuantile(std::vector<double> values, double share);
 [[nodiscard]] double Median(std::vector<double> values);
 [[nodiscard]] double MedianAbsolute(std::vector<double> values);
 [[nodiscard]] double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight);
