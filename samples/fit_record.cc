@@ -3,7 +3,10 @@
 #include "samples/fit_record.h"
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
+
+#include "curvefit/bands.h"
 
 namespace bladecurve {
 namespace {
@@ -90,6 +93,34 @@ Json CriterionRecord(const BladeFit& fit) {
           {"knots_tried", Records(fit.knots_tried)}};
 }
 
+// Standard uncertainties of the curve along the blade, at one angle; the torque's is relative.
+Json BandRecord(const CurveBand& band, const CurveDomain& domain, double theta_rad) {
+  constexpr int kPlaces = 11;  // enough for a plot: the band is smooth
+  Json record = {{"theta_rad", theta_rad}};
+  for (int i = 0; i < kPlaces; ++i) {
+    const double share = static_cast<double>(i) / (kPlaces - 1);
+    const double x_mm = domain.x_min_mm + share * (domain.x_max_mm - domain.x_min_mm);
+    const CurveSigma sigma = band.At(x_mm, theta_rad);
+    record["x_mm"].push_back(x_mm);
+    record["phi_sigma_mm"].push_back(sigma.phi_mm);
+    record["phi_x_sigma"].push_back(sigma.phi_x);
+    record["phi_theta_sigma_mm_per_rad"].push_back(sigma.phi_theta_mm_per_rad);
+  }
+  const std::optional<double> torque = band.TorqueAt(theta_rad);
+  record["torque_sigma"] = torque ? Json(*torque) : Json();
+  return record;
+}
+
+// At the angle of each photograph.
+Json BandsRecord(const BladeFit& fit) {
+  const CurveBand band(fit.recommended);
+  Json record = Json::array();
+  for (const FittedPose& pose : fit.poses) {
+    record.push_back(BandRecord(band, fit.recommended.curve.domain(), pose.theta_rad));
+  }
+  return record;
+}
+
 }  // namespace
 
 Json FitRecord(const BladeFit& fit, double mm_per_px) {
@@ -118,6 +149,8 @@ Json FitRecord(const BladeFit& fit, double mm_per_px) {
           {"residual_tests", Record(chosen.residual_tests)},
           {"influence", Record(chosen.influence)},
           {"edges", Records(fit.edges)},
+          {"disagreement", chosen.disagreement},
+          {"bands", BandsRecord(fit)},
           {"rejected", Records(fit.rejected)}};
 }
 
