@@ -7,7 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "vision/screw_candidates.h"
 #include "vision/screw_field.h"
@@ -67,40 +66,88 @@ bool Admissible(const RimEllipse& rim, const ScrewSearch& search) {
          (rim.center - search.guess_px).norm() <= 1.1 * search.radius_px + 1;
 }
 
-// All admissible rims of one octave of sizes, from min_radius_px up.
-std::vector<Found> SearchOctave(const cv::Mat& grey,
-                                const ScrewSearch& search,
-                                double min_radius_px) {
-  const double scale = min_radius_px / kOctaveRadius;
-  const double range = search.radius_px / scale;
-  const double surroundings = std::max(range, 3 * kOctaveRadius);
-  const double margin = 2.5 * kOctaveRadius + 6;
-  const ScaledWindow coarse =
-      CutWindow(grey, search.guess_px, (surroundings + margin) * scale, scale);
-  const Eigen::Vector2d guess = (search.guess_px - coarse.origin) / scale;
-  const RimField field(coarse.grey, guess, surroundings, std::numbers::sqrt2 * kOctaveRadius);
+// The search for heads of one octave of sizes, from min_radius_px up.
+class Octave {
+ public:
+  Octave(const cv::Mat& grey, const ScrewSearch& search, double min_radius_px)
+      : search_(search),
+        coarse_(CutWindow(grey,
+                          search.guess_px,
+                          Surroundings(search, min_radius_px) + kMargin * min_radius_px,
+                          min_radius_px / kOctaveRadius)),
+        fine_(CutWindow(grey,
+                        search.guess_px,
+                        search.radius_px + kMargin * min_radius_px,
+                        std::max(1.0, min_radius_px / kJudgedRadiusPx))),
+        field_(coarse_.grey,
+               (search.guess_px - coarse_.origin) / coarse_.scale,
+               Surroundings(search, min_radius_px) / coarse_.scale,
+               std::numbers::sqrt2 * kOctaveRadius) {}
 
-  const double fine_scale = std::max(1.0, min_radius_px / kJudgedRadiusPx);
-  const ScaledWindow fine = CutWindow(
-      grey, search.guess_px, search.radius_px + 3.4 * min_radius_px + 8 * fine_scale, fine_scale);
-  std::vector<Found> found;
-  for (const RimCandidate& candidate : FindRimCandidates(field, {guess, range})) {
-    const RimEllipse start =
-        candidate.rim.OutOf(coarse.origin, scale).Into(fine.origin, fine_scale);
+  [[nodiscard]] std::optional<Found> FindBest() const {
+    const OctaveSearch search{(search_.guess_px - coarse_.origin) / coarse_.scale,
+                              search_.radius_px / coarse_.scale};
+    std::optional<Found> best;
+    for (const RimCandidate& candidate : FindRimCandidates(field_, search)) {
+      KeepBetter(Judge(candidate.rim.OutOf(coarse_.origin, coarse_.scale)), best);
+    }
+    if (best && best->evidence > kPromising) best = Polish(*best);
+    return best;
+  }
+
+ private:
+  static constexpr double kMargin =
+      3.6;  // radii of the smallest head: 2.1 of the largest and its rim
+  static constexpr double kPromising = 2;  // evidence that is worth a second look
+
+  // Where the grain of plate and ground is measured: at least three radii about.
+  static double Surroundings(const ScrewSearch& search, double min_radius_px) {
+    return std::max(search.radius_px, 3 * min_radius_px);
+  }
+
+  static void KeepBetter(const std::optional<Found>& found, std::optional<Found>& best) {
+    if (found && (!best || found->evidence > best->evidence)) best = found;
+  }
+
+  // The rim near a start, and what speaks for it. Both in picture pixels.
+  [[nodiscard]] std::optional<Found> Judge(const RimEllipse& start_px) const {
+    const RimEllipse start = start_px.Into(fine_.origin, fine_.scale);
     const double radius = start.MeanRadius();
     const RimFitOptions options{std::max(2.5, 0.2 * radius), std::max(2.0, 0.12 * radius)};
-    std::optional<RimFit> fit = FitRim(fine.grey, start, options);
-    if (!fit) continue;
+    std::optional<RimFit> fit = FitRim(fine_.grey, start, options);
+    if (!fit) return std::nullopt;
     const double judged_radius = fit->rim.MeanRadius();
-    fit->rim = fit->rim.OutOf(fine.origin, fine_scale);
-    fit->center_covariance *= fine_scale * fine_scale;
-    if (!Admissible(fit->rim, search)) continue;
+    fit->rim = fit->rim.OutOf(fine_.origin, fine_.scale);
+    fit->center_covariance *= fine_.scale * fine_.scale;
+    if (!Admissible(fit->rim, search_)) return std::nullopt;
     const Eigen::Vector2d axes = fit->rim.SemiAxes();
-    const double contrast = field.Score(fit->rim.Into(coarse.origin, scale));
-    found.push_back({*fit, Evidence(fit->support, judged_radius, axes[0] / axes[1], contrast)});
+    const double contrast =
+        field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));
+    return Found{*fit, Evidence(fit->support, judged_radius, axes[0] / axes[1], contrast)};
   }
-  return found;
-}
+
+  // The fit may have stopped at a rim that shares only an arc with the head's: starts on all sides
+  // of it decide.
+  [[nodiscard]] Found Polish(const Found& found) const {
+    constexpr double kAside = 0.15, kLarger = 1.12;  // of the radius: as far as the profiles reach
+    const double radius = found.fit.rim.MeanRadius();
+    std::optional<Found> best = found;
+    for (const Eigen::Vector2d& aside : {Eigen::Vector2d(kAside, 0),
+                                         Eigen::Vector2d(-kAside, 0),
+                                         Eigen::Vector2d(0, kAside),
+                                         Eigen::Vector2d(0, -kAside)}) {
+      KeepBetter(Judge(RimEllipse::Circle(found.fit.rim.center + radius * aside, radius)), best);
+    }
+    for (const double factor : {kLarger, 1 / kLarger}) {
+      KeepBetter(Judge(RimEllipse::Circle(found.fit.rim.center, factor * radius)), best);
+    }
+    return *best;
+  }
+
+  ScrewSearch search_;
+  ScaledWindow coarse_, fine_;
+  RimField field_;
+};
 
 std::optional<Found> FindBest(const cv::Mat& grey, const ScrewSearch& search) {
   std::optional<Found> best;
@@ -108,9 +155,8 @@ std::optional<Found> FindBest(const cv::Mat& grey, const ScrewSearch& search) {
   // Octaves overlap, as a rim near the end of one is seen better in the next.
   for (double radius = smallest; radius == smallest || 1.15 * radius < search.max_semi_axis_px;
        radius *= 1.8) {
-    for (const Found& found : SearchOctave(grey, search, radius)) {
-      if (!best || found.evidence > best->evidence) best = found;
-    }
+    const std::optional<Found> found = Octave(grey, search, radius).FindBest();
+    if (found && (!best || found->evidence > best->evidence)) best = found;
   }
   return best;
 }
@@ -160,6 +206,8 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const ScrewSearch& search) {
   Validate(grey, search);
+  const cv::Rect2d picture(-0.5, -0.5, grey.cols, grey.rows);
+  if (!picture.contains({search.guess_px.x(), search.guess_px.y()})) return std::nullopt;
   const std::optional<Found> best = FindBest(grey, search);
   if (!best || best->evidence < search.least_evidence) return std::nullopt;
   const RimFit fit = Refine(grey, tone, best->fit);

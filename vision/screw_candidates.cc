@@ -93,7 +93,7 @@ RimCandidate Climb(const RimField& field, const RimCandidate& start) {
   const double radius = start.rim.MeanRadius();
   RimParameters best{start.rim.center.x(), start.rim.center.y(), std::log(radius), 0, 0};
   double best_score = field.Score(start.rim);
-  for (const double step : {1.0, 0.5, 0.25}) {
+  for (const double step : {1.0, 0.5}) {
     bool improved = true;
     for (int round = 0; improved && round < kMostRoundsPerStep; ++round) {
       improved = false;

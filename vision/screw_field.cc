@@ -18,7 +18,7 @@ constexpr float kLeastEdge = 0.25F;
 constexpr float kLeastLine = 0.15F;
 constexpr float kNormalMad =
     1.4826F;                   // standard deviation over median absolute deviation, normal law
-constexpr int kUsualGrid = 8;  // (2 n + 1)^2 places tell what is usual
+constexpr int kUsualGrid = 6;  // (2 n + 1)^2 places tell what is usual
 
 // Unit vectors of all samples, anticlockwise as x and y go.
 std::array<Eigen::Vector2d, RimField::kSamples> MakeSampleDirections() {
@@ -35,6 +35,16 @@ const Eigen::Vector2d& SampleDirection(int sample) {
   return directions[static_cast<std::size_t>(sample)];
 }
 
+std::array<cv::Point, RimField::kSamples> CircleOffsets(double radius) {
+  std::array<cv::Point, RimField::kSamples> offsets;
+  for (int sample = 0; sample < RimField::kSamples; ++sample) {
+    const Eigen::Vector2d offset = radius * SampleDirection(sample);
+    offsets[static_cast<std::size_t>(sample)] = {static_cast<int>(std::lround(offset.x())),
+                                                 static_cast<int>(std::lround(offset.y()))};
+  }
+  return offsets;
+}
+
 float SectorScore(float q_squared) { return q_squared / (q_squared + kHalfScore * kHalfScore); }
 
 float MedianOf(std::vector<float>& values) {
@@ -46,7 +56,7 @@ float MedianOf(std::vector<float>& values) {
 // The weight 1/usual^2 of a sector's summed response.
 float WeightFrom(std::vector<float>& absolute_sums, float least) {
   const float usual = kNormalMad * MedianOf(absolute_sums);
-  const float floor = least * RimField::kSamplesPerSector;
+  const float floor = 2 * least;
   return 1.F / std::max(usual * usual, floor * floor);
 }
 
@@ -100,41 +110,43 @@ RimField::RimField(const cv::Mat& window,
   cv::GaussianBlur(window, smooth, cv::Size(7, 7), kBlurPx, kBlurPx, cv::BORDER_REPLICATE);
   const cv::Mat gx = Derivative(smooth, 1, 0), gy = Derivative(smooth, 0, 1);
   const cv::Mat hxx = Derivative(gx, 1, 0), hxy = Derivative(gx, 0, 1), hyy = Derivative(gy, 0, 1);
-  derivatives_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-  const auto* x = gx.ptr<float>();
-  const auto* y = gy.ptr<float>();
+  derivatives_.resize(gx.total());
+  const auto *x = gx.ptr<float>(), *y = gy.ptr<float>();
   const auto *xx = hxx.ptr<float>(), *xy = hxy.ptr<float>(), *yy = hyy.ptr<float>();
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
     derivatives_[i] << x[i], y[i], xx[i], xy[i], yy[i], 0, 0, 0;
   }
-  for (int direction = 0; direction < kDirections; ++direction) {
-    const Eigen::Vector2d& n = SampleDirection(direction);
-    const auto index = static_cast<std::size_t>(direction);
-    edge_[index] = n.x() * gx + n.y() * gy;
-    line_[index] = n.x() * n.x() * hxx + 2 * n.x() * n.y() * hxy + n.y() * n.y() * hyy;
+  for (std::size_t direction = 0; direction < kDirections; ++direction) {
+    const Eigen::Vector2f n = SampleDirection(static_cast<int>(direction)).cast<float>();
+    const float nxx = n.x() * n.x(), nxy = 2 * n.x() * n.y(), nyy = n.y() * n.y();
+    edge_[direction].create(gx.size(), CV_32F);
+    line_[direction].create(gx.size(), CV_32F);
+    auto* edge = edge_[direction].ptr<float>();
+    for (std::size_t i = 0; i < derivatives_.size(); ++i) edge[i] = n.x() * x[i] + n.y() * y[i];
+    auto* line = line_[direction].ptr<float>();
+    for (std::size_t i = 0; i < derivatives_.size(); ++i) {
+      line[i] = nxx * xx[i] + nxy * xy[i] + nyy * yy[i];
+    }
   }
   MeasureUsual(center, half_range, typical_radius);
 }
 
 void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius) {
-  edge_weight_.fill(1.F);
-  line_weight_.fill(1.F);
   std::array<std::vector<float>, kSectors / 2> edge, line;
+  const std::array<cv::Point, kSamples> offsets = CircleOffsets(radius);
   for (int row = -kUsualGrid; row <= kUsualGrid; ++row) {
     for (int column = -kUsualGrid; column <= kUsualGrid; ++column) {
-      const Eigen::Vector2d place = center + half_range / kUsualGrid * Eigen::Vector2d(column, row);
-      for (int sector = 0; sector < kSectors; ++sector) {
-        float edge_sum = 0, line_sum = 0;
-        for (int k = 0; k < kSamplesPerSector; ++k) {
-          const int sample = sector * kSamplesPerSector + k;
-          const Eigen::Vector2d p = place + radius * SampleDirection(sample);
-          const int px = std::clamp(static_cast<int>(std::lround(p.x())), 0, width_ - 1);
-          const int py = std::clamp(static_cast<int>(std::lround(p.y())), 0, height_ - 1);
-          edge_sum += edge_[static_cast<std::size_t>(sample % kDirections)].at<float>(py, px);
-          line_sum += line_[static_cast<std::size_t>(sample % kDirections)].at<float>(py, px);
-        }
-        edge[static_cast<std::size_t>(sector % (kSectors / 2))].push_back(std::abs(edge_sum));
-        line[static_cast<std::size_t>(sector % (kSectors / 2))].push_back(std::abs(line_sum));
+      const double step = half_range / kUsualGrid;
+      const cv::Point place(static_cast<int>(center.x() + step * column + 0.5),
+                            static_cast<int>(center.y() + step * row + 0.5));
+      for (std::size_t sector = 0; sector < kSectors; ++sector) {
+        const std::size_t first = 2 * sector, second = first + 1;
+        const cv::Point p = place + offsets[first], q = place + offsets[second];
+        const std::size_t d = first % kDirections;
+        edge[sector % (kSectors / 2)].push_back(
+            std::abs(edge_[d].at<float>(p) + edge_[d + 1].at<float>(q)));
+        line[sector % (kSectors / 2)].push_back(
+            std::abs(line_[d].at<float>(p) + line_[d + 1].at<float>(q)));
       }
     }
   }
@@ -159,16 +171,22 @@ RimField::Derivatives RimField::DerivativesAt(const Eigen::Vector2d& point) cons
 }
 
 RimField::SectorResponses RimField::Responses(const RimEllipse& rim) const {
+  return ResponsesAside(rim, 0);
+}
+
+RimField::SectorResponses RimField::ResponsesAside(const RimEllipse& rim, double share) const {
   SectorResponses responses{};
   const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
   for (int sector = 0; sector < kSectors; ++sector) {
     float edge = 0, line = 0;
-    for (int k = 0; k < kSamplesPerSector; ++k) {
-      const Eigen::Vector2d& u = SampleDirection(sector * kSamplesPerSector + k);
-      const Eigen::Vector2f n = (inverse_shape * u).normalized().cast<float>();
-      const Derivatives d = DerivativesAt(rim.PointAt(u));
-      edge += n.x() * d[0] + n.y() * d[1];
-      line += n.x() * n.x() * d[2] + 2 * n.x() * n.y() * d[3] + n.y() * n.y() * d[4];
+    for (int sample = 2 * sector; sample < 2 * sector + 2; ++sample) {
+      const Eigen::Vector2d& u = SampleDirection(sample);
+      const Eigen::Vector2f n = (inverse_shape * u).cast<float>();
+      const float scale = 1 / n.squaredNorm();
+      const Eigen::Vector2d tangent(-u.y(), u.x());
+      const Derivatives d = DerivativesAt(rim.PointAt(u + share * tangent));
+      edge += std::sqrt(scale) * (n.x() * d[0] + n.y() * d[1]);
+      line += scale * (n.x() * n.x() * d[2] + 2 * n.x() * n.y() * d[3] + n.y() * n.y() * d[4]);
     }
     const auto half_sector = static_cast<std::size_t>(sector % (kSectors / 2));
     responses[static_cast<std::size_t>(sector)] =
@@ -183,31 +201,36 @@ double RimField::Score(const RimEllipse& rim) const {
   return sum / kSectors;
 }
 
+double RimField::ScoreWithoutTangents(const RimEllipse& rim) const {
+  // There the tangent is 0.22 radii off the rim: clear of it, but not yet elsewhere.
+  constexpr double kAside = 0.7;
+  const SectorResponses own = Responses(rim);
+  const SectorResponses after = ResponsesAside(rim, kAside), before = ResponsesAside(rim, -kAside);
+  double sum = 0;
+  for (std::size_t sector = 0; sector < kSectors; ++sector) {
+    sum += SectorScore(std::max(0.F, own[sector] - std::max(after[sector], before[sector])));
+  }
+  return sum / kSectors;
+}
+
 cv::Mat RimField::ScoreCircles(const cv::Rect& centers, double radius) const {
   cv::Mat score = cv::Mat::zeros(centers.size(), CV_32F);
-  const auto width = static_cast<std::size_t>(centers.width);
-  std::vector<float> edge(width), line(width);
+  const std::array<cv::Point, kSamples> offsets = CircleOffsets(radius);
   for (int row = 0; row < centers.height; ++row) {
     float* out = score.ptr<float>(row);
-    for (int sector = 0; sector < kSectors; ++sector) {
-      std::fill(edge.begin(), edge.end(), 0.F);
-      std::fill(line.begin(), line.end(), 0.F);
-      for (int k = 0; k < kSamplesPerSector; ++k) {
-        const int sample = sector * kSamplesPerSector + k;
-        const Eigen::Vector2d offset = radius * SampleDirection(sample);
-        const int y = centers.y + row + static_cast<int>(std::lround(offset.y()));
-        const int x = centers.x + static_cast<int>(std::lround(offset.x()));
-        const float* edge_row =
-            edge_[static_cast<std::size_t>(sample % kDirections)].ptr<float>(y) + x;
-        const float* line_row =
-            line_[static_cast<std::size_t>(sample % kDirections)].ptr<float>(y) + x;
-        for (std::size_t i = 0; i < width; ++i) edge[i] += edge_row[i];
-        for (std::size_t i = 0; i < width; ++i) line[i] += line_row[i];
-      }
-      const auto half_sector = static_cast<std::size_t>(sector % (kSectors / 2));
-      const float we = edge_weight_[half_sector], wl = line_weight_[half_sector];
-      for (std::size_t i = 0; i < width; ++i) {
-        out[i] += SectorScore(edge[i] * edge[i] * we + line[i] * line[i] * wl) / kSectors;
+    for (std::size_t sector = 0; sector < kSectors; ++sector) {
+      const std::size_t first = 2 * sector, d = first % kDirections;
+      const cv::Point start(centers.x, centers.y + row);
+      const cv::Point p = start + offsets[first], q = start + offsets[first + 1];
+      const float *edge_a = edge_[d].ptr<float>(p.y) + p.x,
+                  *line_a = line_[d].ptr<float>(p.y) + p.x;
+      const float* edge_b = edge_[d + 1].ptr<float>(q.y) + q.x;
+      const float* line_b = line_[d + 1].ptr<float>(q.y) + q.x;
+      const float edge_weight = edge_weight_[sector % (kSectors / 2)];
+      const float line_weight = line_weight_[sector % (kSectors / 2)];
+      for (int i = 0; i < centers.width; ++i) {
+        const float edge = edge_a[i] + edge_b[i], line = line_a[i] + line_b[i];
+        out[i] += SectorScore(edge * edge * edge_weight + line * line * line_weight) / kSectors;
       }
     }
   }

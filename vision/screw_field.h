@@ -30,8 +30,7 @@ struct ScaledWindow {
 class RimField {
  public:
   static constexpr int kSectors = 16;
-  static constexpr int kSamplesPerSector = 2;
-  static constexpr int kSamples = kSectors * kSamplesPerSector;
+  static constexpr int kSamples = 2 * kSectors;
   using SectorResponses = std::array<float, kSectors>;
 
   // What is usual is taken from circles of typical_radius centred within half_range of `center`;
@@ -46,6 +45,9 @@ class RimField {
   // 0 to 1: mean over the sectors of q^2 / (q^2 + k^2). One strong sector, a shank's edge say,
   // counts no more than 1/16.
   [[nodiscard]] double Score(const RimEllipse& rim) const;
+  // The same less what goes on straight along the tangents: of a rim nothing does, of the edges of
+  // a shank that happen to touch the ellipse all.
+  [[nodiscard]] double ScoreWithoutTangents(const RimEllipse& rim) const;
   // The same for circles centred on the pixels of `centers`, as CV_32F; whole-pixel accuracy.
   [[nodiscard]] cv::Mat ScoreCircles(const cv::Rect& centers, double radius) const;
 
@@ -54,6 +56,8 @@ class RimField {
   using Derivatives = Eigen::Array<float, 8, 1>;    // g_x, g_y, h_xx, h_xy, h_yy, three times 0
 
   void MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius);
+  // Responses with every place moved along its tangent by that share of the mean radius.
+  [[nodiscard]] SectorResponses ResponsesAside(const RimEllipse& rim, double share) const;
   [[nodiscard]] Derivatives DerivativesAt(const Eigen::Vector2d& point) const;
 
   int width_ = 0, height_ = 0;

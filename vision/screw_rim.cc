@@ -70,15 +70,16 @@ Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
 Profiles SampleProfiles(const cv::Mat& picture,
                         const RimEllipse& rim,
                         double half_px,
-                        const RimFitOptions& options) {
+                        int most_profiles,
+                        bool flat_window) {
   const double perimeter = 2 * std::numbers::pi * rim.MeanRadius();
-  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, options.most_profiles);
+  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, most_profiles);
   const int half_taps = static_cast<int>(std::ceil(half_px / kTapPx));
   const int taps = 2 * half_taps + 1;
   Profiles profiles;
   profiles.values.resize(count, taps);
   profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
-  profiles.window = Window(profiles.t, half_px, options.flat_window);
+  profiles.window = Window(profiles.t, half_px, flat_window);
   const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
   for (int i = 0; i < count; ++i) {
     const double angle = 2 * std::numbers::pi * i / count;
@@ -162,23 +163,28 @@ std::vector<Match> MatchProfiles(const Profiles& profiles,
   const Eigen::MatrixXd weighted = profiles.window.asDiagonal() * basis;
   const Eigen::Matrix4d normal = basis.transpose() * weighted;
   const Rows solution = detrended * weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity());
-  const Eigen::VectorXd norm_squared = detrended.cwiseAbs2() * profiles.window;
 
   const double sigma = std::max(0.7, kSmoothingTurns * count);
   const int reach = static_cast<int>(std::ceil(2.5 * sigma));
+  std::vector<double> kernel(static_cast<std::size_t>(reach) + 1);
+  double kernel_sum = -1;
+  for (int k = 0; k <= reach; ++k) {
+    kernel[static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / (sigma * sigma));
+    kernel_sum += 2 * kernel[static_cast<std::size_t>(k)];
+  }
+  const Eigen::VectorXd windowed_shape = profiles.window.cwiseProduct(shape.value);
   const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
   std::vector<Match> matches(static_cast<std::size_t>(count));
+  Eigen::RowVectorXd smooth(taps);
   for (int i = 0; i < count; ++i) {
-    Eigen::RowVectorXd smooth = detrended.row(i);
-    double sum = 1;
+    smooth = detrended.row(i);
     for (int k = 1; k <= reach; ++k) {
-      const double g = std::exp(-0.5 * k * k / (sigma * sigma));
-      smooth += g * (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
-      sum += 2 * g;
+      smooth += kernel[static_cast<std::size_t>(k)] *
+                (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
     }
     Match& match = matches[static_cast<std::size_t>(i)];
-    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * sum;
-    match.correlation = smooth.dot(profiles.window.cwiseProduct(shape.value)) / norm;
+    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * kernel_sum;
+    match.correlation = smooth.dot(windowed_shape) / norm;
     match.amplitude = solution(i, 2);
     const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
     match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
@@ -298,7 +304,9 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
   RimFit fit{start, Eigen::Matrix2d::Identity(), 0};
   double half_px = options.first_half_px;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    const Profiles profiles = SampleProfiles(picture, fit.rim, half_px, options);
+    const bool settling = 2 * iteration < options.iterations;  // half the profiles will do
+    const Profiles profiles = SampleProfiles(
+        picture, fit.rim, half_px, options.most_profiles / (settling ? 2 : 1), options.flat_window);
     const Rows detrended = WithoutTrend(profiles);
     const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
     if (!shape) return std::nullopt;
@@ -314,11 +322,9 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
     }
     fit.center_covariance = update.center_covariance;
     fit.support = Support(matches, update, start_radius);
-    if (2 * iteration >= options.iterations && fit.support < options.hopeless_support) {
-      return std::nullopt;
-    }
-    const bool narrow = half_px <= options.last_half_px;
-    if (narrow && update.change.norm() < options.converged_px) break;
+    if (!settling && fit.support < options.hopeless_support) return std::nullopt;
+    if (!settling && half_px <= options.last_half_px && update.change.norm() < options.converged_px)
+      break;
     half_px = std::max(options.last_half_px, kShrink * half_px);
   }
   return fit;
