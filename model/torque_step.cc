@@ -9,7 +9,7 @@ namespace bladecurve {
 namespace {
 
 // Strides along the path, so short that a level has at most one maximum within one.
-constexpr double kLongestTurn_rad = 0.02;
+constexpr double kLongestTurn_rad = 0.005;  // also what the work audit needs for 1e-9
 constexpr double kLongestMove_mm = 1.0;
 constexpr double kMostStrides = 256;
 // Evaluations of phi a step may take; an ordinary one takes one to three.
