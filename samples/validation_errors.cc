@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "curvefit/bands.h"
+#include "samples/fitted_photo.h"
 
 namespace bladecurve {
 namespace {
@@ -65,7 +66,7 @@ QuantityErrors EdgeErrors(const PhotoMeasurement& photo, const SceneTruth& truth
 
 // The pivot's axis stands on the sheet; seen obliquely it is a short line, from the edges' height
 // to the screw's head.
-QuantityErrors PivotErrors(const PhotoMeasurement& photo, const SceneTruth& truth) {
+QuantityErrors PivotErrors(const FittedPhoto& photo, const SceneTruth& truth) {
   const Eigen::Vector2d axis = truth.screw_px - truth.pivot_px;
   const double t =
       axis.norm() > 0
@@ -76,15 +77,14 @@ QuantityErrors PivotErrors(const PhotoMeasurement& photo, const SceneTruth& trut
           .stated = {{error.x(), photo.pivot_sigma_px}, {error.y(), photo.pivot_sigma_px}}};
 }
 
-QuantityErrors ThetaErrors(const PhotoMeasurement& photo, const SceneTruth& truth) {
+QuantityErrors ThetaErrors(const FittedPhoto& photo, const SceneTruth& truth) {
   const double error = (photo.theta_rad - truth.theta_rad) * kDegPerRad;
   return {.size = std::abs(error), .stated = {{error, photo.theta_sigma_rad * kDegPerRad}}};
 }
 
-QuantityErrors ScaleErrors(const PhotoMeasurement& photo, const SceneTruth& truth) {
-  const double error = 1e6 * (photo.mm_per_px / truth.mm_per_px - 1);
-  return {.size = std::abs(error),
-          .stated = {{error, 1e6 * photo.mm_per_px_sigma / truth.mm_per_px}}};
+QuantityErrors ScaleErrors(double mm_per_px, double sigma, const SceneTruth& truth) {
+  const double error = 1e6 * (mm_per_px / truth.mm_per_px - 1);
+  return {.size = std::abs(error), .stated = {{error, 1e6 * sigma / truth.mm_per_px}}};
 }
 
 RigidSpline SplineOf(const EdgeShape& shape) {
@@ -163,12 +163,13 @@ BladeCurve TrueCurve(const SceneTruth& truth) {
 std::array<QuantityErrors, kQuantities> CompareWithTruth(const Analysis& analysis,
                                                          const SceneTruth& truth) {
   const PhotoMeasurement& photo = analysis.photos.front();
+  const FittedPhoto fitted = ApplyPose(photo, analysis.fit.poses.front());
   const FamilyFit& fit = analysis.fit.recommended;
   const BladeCurve true_curve = TrueCurve(truth);
   return {EdgeErrors(photo, truth),
-          PivotErrors(photo, truth),
-          ThetaErrors(photo, truth),
-          ScaleErrors(photo, truth),
+          PivotErrors(fitted, truth),
+          ThetaErrors(fitted, truth),
+          ScaleErrors(fitted.mm_per_px, photo.mm_per_px_sigma, truth),
           PhiErrors(fit, true_curve, truth.theta_rad),
           TorqueErrors(fit, true_curve, truth.theta_rad)};
 }

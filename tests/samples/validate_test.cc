@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "samples/csv_text.h"
+#include "samples/validation_plot.h"
+#include "samples/validation_run.h"
+#include "samples/validation_scene.h"
+#include "samples/validation_table.h"
+#include "tests/samples/program_run.h"
+#include "vision/render.h"
+
+namespace bladecurve {
+namespace {
+
+ValidationRow Measured(int number, double error, double sigma) {
+  ValidationRow row;
+  row.number = number;
+  row.expected = "ok";
+  row.outcome = "ok";
+  row.ms = 10 + number;
+  row.errors[static_cast<std::size_t>(Quantity::kTheta)] = {.size = std::abs(error),
+                                                            .stated = {{error, sigma}}};
+  return row;
+}
+
+ValidationRow Refused(const std::string& expected, const std::string& outcome) {
+  ValidationRow row;
+  row.expected = expected;
+  row.outcome = outcome;
+  row.detail = "scene: said \"no\", twice";
+  return row;
+}
+
+// The line of the table that begins with `start`.
+std::string LineOf(const std::string& table, const std::string& start) {
+  const std::size_t begin = table.find("\n" + start);
+  if (begin == std::string::npos) return "";
+  return table.substr(begin + 1, table.find('\n', begin + 1) - begin - 1);
+}
+
+TEST(Percentile, IsTheSmallestValueThatEnoughDoNotExceed) {
+  EXPECT_EQ(Percentile({4, 1, 3, 2}, 0.5), 2);
+  EXPECT_EQ(Percentile({4, 1, 3, 2}, 0.95), 4);
+  EXPECT_EQ(Percentile({7}, 0.01), 7);
+  EXPECT_EQ(Percentile({std::nan(""), 5}, 1), 5);
+  EXPECT_TRUE(std::isnan(Percentile({}, 0.5)));
+}
+
+TEST(ValidationTable, CountsAnIntervalAsHeldUpTo196Sigma) {
+  const std::vector<ValidationRow> rows = {
+      Measured(0, 1.95, 1), Measured(1, -1.95, 1), Measured(2, 1.97, 1), Measured(3, -5, 1)};
+  EXPECT_NE(LineOf(ValidationTable(rows, true), "theta").find("50.0 % of 4"), std::string::npos)
+      << ValidationTable(rows, true);
+}
+
+TEST(ValidationTable, TellsRightRefusalsFromWrongOnes) {
+  const std::vector<ValidationRow> rows = {Measured(0, 0.1, 1),
+                                           Refused("ok", "low_contrast"),
+                                           Refused("closed", "closed"),
+                                           Refused("closed", "not_scissors"),
+                                           [] {
+                                             ValidationRow row = Measured(4, 0, 1);
+                                             row.expected = "blades_not_visible";
+                                             return row;
+                                           }()};
+  const std::string table = ValidationTable(rows, false);
+  EXPECT_NE(table.find("1 ok, 0 review, 1 refused (low_contrast 1)"), std::string::npos) << table;
+  EXPECT_NE(
+      table.find(
+          "1 refused (closed 1), 1 with another reason (not_scissors for closed 1), 1 ACCEPTED"),
+      std::string::npos)
+      << table;
+}
+
+TEST(ValidationCsv, HasOneFieldForEveryHeading) {
+  const std::vector<ValidationRow> rows = {Measured(0, 0.5, 0.25), Refused("ok", "blurred")};
+  for (const bool with_times : {true, false}) {
+    const auto lines = ParseCsv(ValidationCsv(rows, with_times));
+    ASSERT_EQ(lines.size(), 3u);
+    for (const auto& line : lines) EXPECT_EQ(line.size(), lines.front().size());
+    const auto heading = std::find(lines[0].begin(), lines[0].end(), "theta_sigmas");
+    ASSERT_NE(heading, lines[0].end());
+    EXPECT_EQ(lines[1][static_cast<std::size_t>(heading - lines[0].begin())], "2");
+    EXPECT_EQ(lines[2].back(), "scene: said \"no\", twice");
+  }
+}
+
+TEST(WorkPrecisionSvg, DrawsADotForEveryMeasuredScene) {
+  const std::vector<ValidationRow> rows = {
+      Measured(0, 0.5, 1), Measured(1, 0.003, 1), Refused("ok", "blurred")};
+  const std::string svg = WorkPrecisionSvg(rows);
+  std::size_t dots = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos;
+       at = svg.find("<circle", at + 1))
+    ++dots;
+  EXPECT_EQ(dots, 2u);
+  EXPECT_NE(svg.find("1 refused though measurable"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(WorkPrecisionSvg, OfNoMeasuredSceneIsEmptyButValid) {
+  const std::string svg = WorkPrecisionSvg({Refused("closed", "closed")});
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(MakeValidationScene, RefusesEveryTenthSceneForItsOwnReason) {
+  for (const Difficulty difficulty :
+       {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard}) {
+    for (int number = 0; number < 60; ++number) {
+      const ValidationScene scene = MakeValidationScene(number, 3, difficulty);
+      ASSERT_EQ(scene.refuse.has_value(), number % 10 == 9) << number;
+      const SceneTruth truth = TruthOf(scene.spec);
+      if (!scene.refuse) {
+        EXPECT_TRUE(truth.tips_in_frame && scene.spec.with_scissors && truth.theta_rad > 0.1)
+            << number;
+      } else if (*scene.refuse == Reason::kBladesNotVisible) {
+        EXPECT_FALSE(truth.tips_in_frame) << number;
+      } else if (*scene.refuse == Reason::kClosed) {
+        EXPECT_LT(truth.theta_rad, 0) << number;
+      } else {
+        EXPECT_FALSE(scene.spec.with_scissors) << number;
+      }
+    }
+  }
+}
+
+TEST(Validate, GivesTheSameBytesForTheSameSeed) {
+  const std::vector<std::string> two = {
+      "validate", "--scenes", "2", "--difficulty", "clean", "--no-times", "--csv", "-"};
+  const ProgramRun first = RunBladecurve(two, TestFolder());
+  ASSERT_EQ(first.exit_code, 0) << first.standard_error;
+  std::vector<std::string> threaded = two;
+  threaded.insert(threaded.end(), {"--threads", "2"});
+  EXPECT_EQ(RunBladecurve(threaded, TestFolder()).standard_output, first.standard_output);
+  EXPECT_EQ(ParseCsv(first.standard_output).size(), 3u) << first.standard_output;
+  std::vector<std::string> other_seed = two;
+  other_seed.insert(other_seed.end(), {"--seed", "2"});
+  EXPECT_NE(RunBladecurve(other_seed, TestFolder()).standard_output, first.standard_output);
+}
+
+TEST(Validate, RefusesImpossibleCounts) {
+  EXPECT_EQ(RunBladecurve({"validate", "--scenes", "0"}, TestFolder()).exit_code, 2);
+  EXPECT_EQ(RunBladecurve({"validate", "--difficulty", "impossible"}, TestFolder()).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace bladecurve
