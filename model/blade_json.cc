@@ -170,11 +170,10 @@ std::vector<double> StandardErrorsOfJson(const Json& errors,
                                          const std::vector<std::string>& names) {
   if (!errors.is_object())
     Complain("standard_errors", "is " + Shown(errors) + "; it must be an object");
-  std::vector<double> values;
-  for (const std::string& name : names) {
-    values.push_back(errors.contains(name)
-                         ? NumberOrUnknown(errors[name], "standard_errors." + name)
-                         : kUnknown);
+  std::vector<double> values(names.size(), kUnknown);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = errors.find(names[i]);
+    if (found != errors.end()) values[i] = NumberOrUnknown(*found, "standard_errors." + names[i]);
   }
   return values;
 }
@@ -189,7 +188,7 @@ void CheckFormat(const Json& record) {
 // A refusal is a record without a curve.
 std::string StatusOfJson(const Json& record) {
   if (!record.contains("status")) return "ok";
-  const std::string status = Word(record["status"], "status");
+  std::string status = Word(record["status"], "status");
   if (status == "ok" || status == "review") return status;
   if (status != "refused")
     Complain("status", "is \"" + status + "\"; it must be ok, review or refused");
@@ -209,8 +208,8 @@ BladeFile BladeFileOfJson(const Json& record) {
   if (!record.is_object())
     Complain("the file", "is " + Shown(record) + "; it must be a JSON object");
   CheckFormat(record);
-  const std::string status = StatusOfJson(record);
-  BladeFile blade = {Word(Need(record, "name"), "name"), CurveOfJson(record), status};
+  std::string status = StatusOfJson(record);
+  BladeFile blade = {Word(Need(record, "name"), "name"), CurveOfJson(record), std::move(status)};
   const std::vector<std::string> names = ParameterNames(blade.curve.shape());
   if (Has(record, "warnings")) blade.warnings = Words(record["warnings"], "warnings");
   if (Has(record, "covariance")) blade.covariance = CovarianceOfJson(record, names);

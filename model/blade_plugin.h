@@ -25,6 +25,7 @@
   8u /* the turned edge is no graph over x there: nearest valid value \
       */
 
+/* NOLINTBEGIN(readability-identifier-naming): C has no namespaces. */
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -88,4 +89,5 @@ int bladecurve_contacts(double y_mm, double theta_rad, double* x_mm, int capacit
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(readability-identifier-naming) */
 #endif /* BLADECURVE_PLUGIN_H */

@@ -68,6 +68,7 @@ std::vector<std::string> Compiler() {
 // Runs a program found on the PATH; its exit code.
 int Run(std::vector<std::string> words, const fs::path& messages) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   const pid_t child = fork();

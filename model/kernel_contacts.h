@@ -25,7 +25,7 @@ static inline int TaperedContacts(
  * degree. */
 static inline int GapOfRow(
     const BladeKernel* k, int row, const EdgeTurn* turn, double y, double dt, double* gap) {
-  const double* s = k->rows + kRowSize * row + 1;
+  const double* s = RowOf(k, row) + 1;
   const int n = k->degree;
   double height[kMaxDegree + 1];
   int i, m;
@@ -53,7 +53,7 @@ static inline int SplineContacts(
                     high = PointNear(k, &turn, &x_high, &flags);
   int n = 0, row, i;
   for (row = low.row; row <= high.row; ++row) {
-    const double centre = k->rows[kRowSize * row];
+    const double centre = RowOf(k, row)[0];
     const double from = (row == low.row ? low.u : k->ends[row]) - centre;
     const double to = (row == high.row ? high.u : k->ends[row + 1]) - centre;
     double gap[2 * kMaxDegree], roots[kMaxPolynomial];

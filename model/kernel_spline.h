@@ -35,6 +35,9 @@ typedef struct SplinePoint {
   int row;
 } SplinePoint;
 
+/* Row i: {centre, c0 .. c5}. */
+static inline const double* RowOf(const BladeKernel* k, long i) { return k->rows + kRowSize * i; }
+
 static inline double Clamp(double value, double low, double high) {
   return value < low ? low : (value > high ? high : value);
 }
@@ -48,7 +51,7 @@ static inline int RowAt(const BladeKernel* k, double u) {
 
 /* The coefficients beyond the degree are 0. */
 static inline SplinePoint PointOnRow(const BladeKernel* k, int row, double u) {
-  const double* c = k->rows + kRowSize * row + 1;
+  const double* c = RowOf(k, row) + 1;
   const double t = u - c[-1];
   const double tt = t * t;
   SplinePoint p;

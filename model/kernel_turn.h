@@ -44,7 +44,7 @@ static inline QuarterTangent QuarterTangentOf(double theta) {
 
 /* How far dx/du is below kLeastAdvance on a row, as a polynomial in u - centre. */
 static inline void SteepnessOfRow(const BladeKernel* k, int row, const EdgeTurn* turn, double* c) {
-  const double* s = k->rows + kRowSize * row + 1;
+  const double* s = RowOf(k, row) + 1;
   int i;
   for (i = 0; i < kMaxDegree; ++i) c[i] = turn->sine * (i + 1) * s[i + 1];
   c[0] += kLeastAdvance - turn->cosine;
@@ -54,7 +54,7 @@ static inline void SteepnessOfRow(const BladeKernel* k, int row, const EdgeTurn*
 static inline double GraphEnd(const BladeKernel* k, const EdgeTurn* turn, double u, int direction) {
   int row = RowAt(k, u);
   for (; row >= 0 && row < k->num_rows; row += direction) {
-    const double centre = k->rows[kRowSize * row];
+    const double centre = RowOf(k, row)[0];
     const double low = (direction > 0 && u > k->ends[row] ? u : k->ends[row]) - centre;
     const double high = (direction < 0 && u < k->ends[row + 1] ? u : k->ends[row + 1]) - centre;
     double steepness[kMaxDegree], roots[kMaxDegree], noise;
@@ -146,7 +146,7 @@ static double OverhangBeyond(const BladeKernel* k, const EdgeTurn* turn, double 
   double farthest = direction * kFarthest;
   int row, i;
   for (row = 1; row < k->num_rows - 1; ++row) {
-    const double centre = k->rows[kRowSize * row];
+    const double centre = RowOf(k, row)[0];
     double steepness[kMaxDegree], folds[kMaxDegree + 2];
     int n;
     SteepnessOfRow(k, row, turn, steepness);

@@ -107,10 +107,10 @@ BladeFile ReadPluginFile(const std::filesystem::path& path) {
   const Library library = Load(path);
   const bladecurve_plugin& table = Table(library);
   Require(table.id && table.eval, "no name or no eval");
-  BladeCurve curve(Shape(table),
-                   {table.x_min_mm, table.x_max_mm, table.theta_min_rad, table.theta_max_rad});
+  const BladeCurve curve(
+      Shape(table), {table.x_min_mm, table.x_max_mm, table.theta_min_rad, table.theta_max_rad});
   CheckValues(table, curve);
-  BladeFile blade = {table.id, std::move(curve)};
+  BladeFile blade = {table.id, curve};
   blade.standard_errors =
       KnownOrNan(Numbers(table.standard_errors, table.num_parameters, "standard errors"));
   blade.fit_rms_mm = KnownOrNan({table.fit_rms_mm}).front();

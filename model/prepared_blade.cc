@@ -189,7 +189,7 @@ void FindSlopeRange(BladeKernel& kernel) {
   kernel.slope_min = HUGE_VAL;
   kernel.slope_max = -HUGE_VAL;
   for (int row = 1; row + 1 < kernel.num_rows; ++row) {
-    const double* c = kernel.rows + kRowSize * row;
+    const double* c = RowOf(&kernel, row);
     const double low = kernel.ends[row] - c[0];
     const double high = kernel.ends[row + 1] - c[0];
     std::array<double, kMaxDegree> slope = {};

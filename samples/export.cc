@@ -47,7 +47,7 @@ fs::path DefaultOutput(const fs::path& blade, const std::string& as) {
 }
 
 fs::path OutputOf(const ExportCommand& command) {
-  const fs::path output =
+  fs::path output =
       command.output.empty() ? DefaultOutput(command.blade, command.as) : fs::path(command.output);
   std::error_code ignored;
   if (fs::equivalent(output, command.blade, ignored)) {
