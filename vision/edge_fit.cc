@@ -20,6 +20,7 @@ constexpr int kSketchRounds = 5;  // from 1.5 px off and a blur wrong by 2 to wi
 constexpr int kSketchStride = 6;  // on every sixth sample
 constexpr double kFirstShare =
     0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
+constexpr int kImproveRounds = 2;
 constexpr int kImproveStride = 2;
 constexpr int kNoiseStride = 2 * EdgeWindows::kStretch;
 constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
@@ -52,7 +53,7 @@ class Fitter {
     for (int round = 0; round < kSketchRounds; ++round) Improve(kSketchStride, round > 0);
     before_ = offsets_;
     Take(SmoothPath(Shifted(path_, offsets_), blade_on_left, kSmoothing));
-    Improve(kImproveStride, true);
+    for (int round = 0; round < kImproveRounds; ++round) Improve(kImproveStride, true);
     Solve(1, true);
     return Finish();
   }
