@@ -120,7 +120,7 @@ void CompilePlugin(const std::string& source, const fs::path& library) {
   WriteText(text, source);
   std::vector<std::string> words = Compiler();
   const std::string compiler = words.front();
-  for (const char* word : {"-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-o"}) {
+  for (const char* word : {"-std=c99", "-O3", "-ffp-contract=off", "-fPIC", "-shared", "-o"}) {
     words.emplace_back(word);
   }
   words.insert(words.end(), {built.string(), text.string(), "-lm"});

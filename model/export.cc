@@ -131,7 +131,7 @@ std::string PartText(const PluginPart& part) {
 std::string PluginSource(const BladeFile& blade) {
   std::string text =
       "/* A blade curve as a C plugin, written by bladecurve export. For the same bits as the\n"
-      " * library's: cc -std=c99 -O2 -ffp-contract=off -fPIC -shared FILE.c -o FILE.so -lm */\n\n";
+      " * library's: cc -std=c99 -O3 -ffp-contract=off -fPIC -shared FILE.c -o FILE.so -lm */\n\n";
   for (const PluginPart& part : kPluginParts) {
     if (part.name == "plugin_body.c") text += DataText(blade);
     text += PartText(part);

@@ -103,13 +103,15 @@ static inline int IsNear(const BladeKernel* k, const EdgeTurn* turn, SplinePoint
   return fabs(XOfPoint(turn, p) - x) <= (is_inner ? inner * turn->least : k->exact_mm);
 }
 
-/* The step along u to where the edge is over x: Newton's, and two terms of the reversed Taylor's
- * series where that is of use. */
+/* The step along u to where the edge is over x, by reversion of Taylor's series; Newton's where
+ * that is of no use. */
 static inline double StepTowards(const EdgeTurn* turn, SplinePoint p, double x) {
   const double per = 1.0 / (turn->cosine - p.s1 * turn->sine);
   const double step = (x - XOfPoint(turn, p)) * per;
   const double bend = p.s2 * (turn->sine * per) * step;
-  return fabs(bend) > 0.1 ? step : step * ((1.0 + bend) + 2.0 * bend * bend);
+  const double twist = p.s3 * (turn->sine * per) * (step * step);
+  if (fabs(bend) + fabs(twist) > 0.1) return step;
+  return step * ((1.0 + bend) + (2.0 * bend * bend + twist));
 }
 
 /* A point of the edge near x, for an x between those of u_low and u_high, from any start: Newton's
