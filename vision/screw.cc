@@ -18,6 +18,8 @@ namespace {
 constexpr double kLeastSemiAxisPx = 3.5;  // of a head that can be told from a speck
 constexpr double kLeastAxisRatio =
     0.75;  // flatter: half a head cut off by its slot, not a tilted circle
+constexpr double kLeastThird =
+    0.28;  // support of the poorest third: less is a tip or a corner, round on one side
 constexpr double kJudgedRadiusPx =
     14;  // heads are judged at 14 to 28 px: larger ones show more grain than rim
 
@@ -119,7 +121,7 @@ class Octave {
     const double judged_radius = fit->rim.MeanRadius();
     fit->rim = fit->rim.OutOf(fine_.origin, fine_.scale);
     fit->center_covariance *= fine_.scale * fine_.scale;
-    if (!Admissible(fit->rim, search_)) return std::nullopt;
+    if (fit->third_support < kLeastThird || !Admissible(fit->rim, search_)) return std::nullopt;
     const Eigen::Vector2d axes = fit->rim.SemiAxes();
     const double contrast =
         field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRadiusRatio =
     1.07;  // of neighbouring circles: half the field's blur on a rim of 14 px
 constexpr float kLeastScore = 0.4F;  // below: what any textured ground reaches by chance
-constexpr std::size_t kPeaks = 24;   // circles to be bent into ellipses
+constexpr std::size_t kPeaks = 16;   // circles to be bent into ellipses
 constexpr std::size_t kKept = 12;    // ellipses to be looked at closely
 constexpr double kSamePx = 0.7;  // closer in centre and radius than this: the same rim found twice
 constexpr double kMostElongation =

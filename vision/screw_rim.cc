@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace bladecurve {
@@ -276,13 +277,25 @@ Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
   return update;
 }
 
-double Support(const std::vector<Match>& matches, const Update& update, double radius) {
+void RateSupport(const std::vector<Match>& matches,
+                 const Update& update,
+                 double radius,
+                 RimFit& fit) {
   const double width = std::max(kRimRelativeWidth * radius, kRimLeastWidthPx);
-  int seen = 0;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (matches[i].correlation > kRimCorrelation && std::abs(update.residual_px[i]) < width) ++seen;
+  const std::size_t count = matches.size(), third = count / 3;
+  std::vector<int> seen(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    seen[i] = matches[i].correlation > kRimCorrelation && std::abs(update.residual_px[i]) < width;
   }
-  return static_cast<double>(seen) / static_cast<double>(matches.size());
+  int in_third =
+      std::accumulate(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(third), 0);
+  int least = in_third;
+  for (std::size_t i = 0; i < count; ++i) {
+    in_third += seen[(i + third) % count] - seen[i];
+    least = std::min(least, in_third);
+  }
+  fit.support = std::accumulate(seen.begin(), seen.end(), 0.0) / static_cast<double>(count);
+  fit.third_support = static_cast<double>(least) / static_cast<double>(third);
 }
 
 RimEllipse Changed(const RimEllipse& rim, const Vector5d& change) {
@@ -301,7 +314,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
                              const RimEllipse& start,
                              const RimFitOptions& options) {
   const double start_radius = start.MeanRadius();
-  RimFit fit{start, Eigen::Matrix2d::Identity(), 0};
+  RimFit fit{start, Eigen::Matrix2d::Identity()};
   double half_px = options.first_half_px;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const bool settling = 2 * iteration < options.iterations;  // half the profiles will do
@@ -321,7 +334,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
       return std::nullopt;
     }
     fit.center_covariance = update.center_covariance;
-    fit.support = Support(matches, update, start_radius);
+    RateSupport(matches, update, start_radius, fit);
     if (!settling && fit.support < options.hopeless_support) return std::nullopt;
     if (!settling && half_px <= options.last_half_px && update.change.norm() < options.converged_px)
       break;

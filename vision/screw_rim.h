@@ -24,8 +24,9 @@ struct RimFit {
   RimEllipse rim;
   Eigen::Matrix2d center_covariance;  // px^2; from the scatter of the rim's points, in blocks that
                                       // may be correlated
-  double support =
-      0;  // share of the rim whose profile looks like the common one, at the fitted place
+  // Share of the rim whose profile looks like the common one, at the fitted place.
+  double support = 0;
+  double third_support = 0;  // the same of that third of the rim where it is least
 };
 
 // Fits an ellipse to the rim near `start` in a CV_32F picture. What the rim looks like across (a
