@@ -13,6 +13,7 @@ namespace {
 constexpr int kStretch = EdgeWindows::kStretch;
 constexpr int kStretchesPerStep = 2;  // from one window to the next
 constexpr int kReach = 6;             // stretches to either side of a window's centre
+constexpr int kReachAtEnds = 2;
 constexpr int kStep = kStretch * kStretchesPerStep;
 constexpr double kOverlap = (2.0 * kReach + 1) / kStretchesPerStep;  // windows that share a stretch
 
@@ -46,11 +47,15 @@ void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
 
 void EdgeWindows::Solve(const LevelVector& precision) {
   fits_.clear();
-  for (int center = 0; center < static_cast<int>(moments_.size()); center += kStretchesPerStep) {
+  const int last = static_cast<int>(moments_.size()) - 1;
+  for (int center = 0; center <= last; center += kStretchesPerStep) {
+    // Towards the ends the other blade and the tip change the light quickly: the windows shrink
+    // with the distance.
+    const int reach = std::clamp(std::min(center, last - center), kReachAtEnds, kReach);
     LevelMoments sum;
-    const int last = std::min(center + kReach, static_cast<int>(moments_.size()) - 1);
-    for (int s = std::max(center - kReach, 0); s <= last; ++s)
+    for (int s = std::max(center - reach, 0); s <= std::min(center + reach, last); ++s) {
       sum.Add(moments_[Index(s)], trust_[Index(s)]);
+    }
     fits_.push_back(SolveLevels(sum, precision));
   }
 }
