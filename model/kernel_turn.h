@@ -79,11 +79,13 @@ static void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
 static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
   const QuarterTangent q = QuarterTangentOf(theta);
   EdgeTurn turn;
+  double per_norm;
   turn.norm = q.den * q.den + q.num * q.num;
   turn.norm_cosine = q.den * q.den - q.num * q.num;
   turn.norm_sine = 2.0 * q.num * q.den;
-  turn.cosine = turn.norm_cosine / turn.norm;
-  turn.sine = turn.norm_sine / turn.norm;
+  per_norm = 1.0 / turn.norm;
+  turn.cosine = turn.norm_cosine * per_norm;
+  turn.sine = turn.norm_sine * per_norm;
   turn.least = turn.cosine - turn.sine * (turn.sine > 0.0 ? k->slope_max : k->slope_min);
   turn.u_low = -kFarthest;
   turn.u_high = kFarthest;

@@ -184,33 +184,42 @@ void AppendRows(const RigidSpline& spline, PreparedBlade& blade) {
   blade.ends.push_back(kBeyondAll);
 }
 
+using RowPolynomial = std::array<double, kMaxDegree + 1>;
+
+RowPolynomial Derivative(const RowPolynomial& c) {
+  RowPolynomial derivative = {};
+  for (std::size_t i = 1; i < c.size(); ++i) derivative[i - 1] = static_cast<double>(i) * c[i];
+  return derivative;
+}
+
+void WidenSlopeRange(BladeKernel& kernel, double slope, double u) {
+  if (slope < kernel.slope_min) {
+    kernel.slope_min = slope;
+    kernel.u_slope_min = u;
+  }
+  if (slope > kernel.slope_max) {
+    kernel.slope_max = slope;
+    kernel.u_slope_max = u;
+  }
+}
+
 // Where s' is least and greatest: at a span's ends or where s'' is 0.
 void FindSlopeRange(BladeKernel& kernel) {
   kernel.slope_min = HUGE_VAL;
   kernel.slope_max = -HUGE_VAL;
   for (int row = 1; row + 1 < kernel.num_rows; ++row) {
-    const double* c = RowOf(&kernel, row);
-    const double low = kernel.ends[row] - c[0];
-    const double high = kernel.ends[row + 1] - c[0];
-    std::array<double, kMaxDegree> slope = {};
-    std::array<double, kMaxDegree + 1> candidates = {low, high};
-    for (int i = 0; i < kernel.degree; ++i) slope[static_cast<std::size_t>(i)] = (i + 1) * c[i + 2];
-    std::array<double, kMaxDegree> bend = {};
-    for (std::size_t i = 1; i < slope.size(); ++i) bend[i - 1] = static_cast<double>(i) * slope[i];
+    const double* centre = RowOf(&kernel, row);
+    const double low = kernel.ends[row] - *centre, high = kernel.ends[row + 1] - *centre;
+    RowPolynomial s;
+    std::copy_n(centre + 1, s.size(), s.begin());
+    const RowPolynomial slope = Derivative(s), bend = Derivative(slope);
+    std::array<double, kMaxDegree + 1> places = {low, high};
     const int count =
-        2 + PolynomialRoots(bend.data(), kernel.degree - 2, low, high, candidates.data() + 2);
+        2 + PolynomialRoots(bend.data(), kernel.degree - 2, low, high, places.data() + 2);
     for (int i = 0; i < count; ++i) {
       double noise;
-      const double t = candidates[static_cast<std::size_t>(i)];
-      const double value = Polynomial(slope.data(), kernel.degree - 1, t, &noise);
-      if (value < kernel.slope_min) {
-        kernel.slope_min = value;
-        kernel.u_slope_min = c[0] + t;
-      }
-      if (value > kernel.slope_max) {
-        kernel.slope_max = value;
-        kernel.u_slope_max = c[0] + t;
-      }
+      const double t = places[static_cast<std::size_t>(i)];
+      WidenSlopeRange(kernel, Polynomial(slope.data(), kernel.degree - 1, t, &noise), *centre + t);
     }
   }
 }
