@@ -55,6 +55,25 @@ std::vector<double> Breaks(const SplineSpace& space) {
   return breaks;
 }
 
+// Schoenberg-Whitney, and points in every span: without them coefficients are determined, but by
+// rounding.
+bool Supported(const std::vector<FlatPoint>& points, const SplineSpace& space) {
+  constexpr std::ptrdiff_t kFewestInSpan = 3;
+  const std::vector<double> breaks = Breaks(space);
+  auto begin = points.begin();
+  for (size_t i = 1; i < breaks.size(); ++i) {
+    const auto end =
+        i + 1 == breaks.size()
+            ? points.end()
+            : std::lower_bound(begin, points.end(), breaks[i], [](const FlatPoint& p, double u) {
+                return p.u < u;
+              });
+    if (end - begin < kFewestInSpan) return false;
+    begin = end;
+  }
+  return SchoenbergWhitney(points, space);
+}
+
 // One knot more, in the span with the largest chi2 in which one has room: the best of three places.
 std::optional<LinearSpline> AddKnot(const LinearSpline& fit, Search& search) {
   const std::vector<double> breaks = Breaks(fit.space);
@@ -70,7 +89,7 @@ std::optional<LinearSpline> AddKnot(const LinearSpline& fit, Search& search) {
       interior.push_back(breaks[span] + part * (breaks[span + 1] - breaks[span]));
       std::sort(interior.begin(), interior.end());
       const SplineSpace space = search.Space(fit.space.degree, interior);
-      if (!SchoenbergWhitney(search.points, space)) continue;
+      if (!Supported(search.points, space)) continue;
       LinearSpline candidate = search.Try(space);
       if (!best || candidate.chi2 < best->chi2) best = std::move(candidate);
     }
@@ -119,18 +138,24 @@ LinearSpline Prune(LinearSpline fit, Search& search) {
   return fit;
 }
 
+// The degree asked for, or the highest below it that the points support.
+int SupportedDegree(int degree, const Search& search) {
+  while (degree > 1 && !SchoenbergWhitney(search.points, search.Space(degree, {}))) --degree;
+  return degree;
+}
+
 LinearSpline Chosen(Search& search) {
   const KnotRequest& request = search.request;
-  if (request.interior)
-    return search.Try(search.Space(request.degree.value_or(3), *request.interior));
+  const int degree = SupportedDegree(request.degree.value_or(3), search);
+  if (request.interior) return search.Try(search.Space(degree, *request.interior));
   if (request.degree || request.num_spans) {
-    LinearSpline grown = Grow(search.Try(search.Space(request.degree.value_or(3), {})), search);
+    LinearSpline grown = Grow(search.Try(search.Space(degree, {})), search);
     return request.num_spans ? grown : Prune(std::move(grown), search);
   }
   LinearSpline best = search.Try(search.Space(1, {}));
   LinearSpline last = best;
-  for (int degree = 2; degree <= 3; ++degree) {
-    const SplineSpace space = search.Space(degree, {});
+  for (int higher = 2; higher <= degree; ++higher) {
+    const SplineSpace space = search.Space(higher, {});
     if (!SchoenbergWhitney(search.points, space)) return best;
     last = search.Try(space);
     if (Bic(last, request.effective_points) < Bic(best, request.effective_points)) best = last;

@@ -25,6 +25,7 @@ constexpr int kTrials =
 constexpr int kScoredPoints = 400;
 constexpr double kSupport = 0.4;  // this part of the points at least is the edge
 constexpr double kMedianOfHalfNormal = 0.6745;
+constexpr double kHardlyMoved = 1.5;  // a scatter below this many sigmas shows no crowd of outliers
 
 // A point's place in the edge, its weight without the correlation, and how far it is off.
 struct Cleaning {
@@ -112,7 +113,7 @@ double InlierScale(const std::vector<double>& sigmas, double scale) {
 // Where a few points only are off, the plain fit is a good start; otherwise the curve that the
 // largest minority supports. Returns the scatter.
 double StartRobustly(double scale, Cleaning& c) {
-  constexpr double kFew = 0.05, kHardlyMoved = 1.5;
+  constexpr double kFew = 0.05;
   const auto off = std::count_if(c.sigmas.begin(), c.sigmas.end(), [&](double s) {
     return std::abs(s) > kRejectSigmas * scale;
   });
@@ -149,6 +150,22 @@ double FitRobustly(double scale, Cleaning& c) {
     Refit(trust, c);
   }
   return InlierScale(c.sigmas, scale);
+}
+
+// Scatter of the edge's own points; `c` then holds the curve through them. A robust curve is
+// believed where it lies much closer to its points than the plain one: then there are outliers, not
+// sigmas that were stated too small.
+double CleanScatter(Cleaning& c) {
+  const double plain = std::max(1.0, MedianSize(c.sigmas) / kMedianOfHalfNormal);
+  const auto beyond = [&](double s) { return std::abs(s) > kRejectSigmas * plain; };
+  const bool tails = std::any_of(c.sigmas.begin(), c.sigmas.end(), beyond);
+  if (!tails && plain < kHardlyMoved) return plain;
+  Cleaning robust = c;
+  const double scatter = FitRobustly(plain, robust);
+  constexpr double kMuchCloser = 0.7;
+  if (plain >= kHardlyMoved && scatter > kMuchCloser * plain) return plain;
+  c = std::move(robust);
+  return scatter;
 }
 
 Cleaning StartCleaning(const EdgeSamples& edge, const Pose& pose, bool is_upper) {
@@ -221,17 +238,11 @@ void Widen(const Cleaning& c,
 CleanReport CleanEdge(EdgeSamples& edge, const Pose& pose, bool is_upper, bool reject) {
   if (edge.size() < 3) return {};
   Cleaning c = StartCleaning(edge, pose, is_upper);
-  double scale = std::max(1.0, MedianSize(c.sigmas) / kMedianOfHalfNormal);
-  const auto beyond = [&](double s) { return std::abs(s) > kRejectSigmas * scale; };
-  const bool suspicious = std::any_of(c.sigmas.begin(), c.sigmas.end(), beyond);
-  constexpr int kFewest = 6;  // with fewer points a majority means nothing
-  if (reject && suspicious && edge.size() >= kFewest) {
-    scale = FitRobustly(scale, c);
-  } else {
-    scale = std::numeric_limits<double>::infinity();
-  }
+  constexpr size_t kFewest = 6;  // with fewer points a majority means nothing
+  double bound = std::numeric_limits<double>::infinity();
+  if (reject && c.points.size() >= kFewest) bound = kRejectSigmas * CleanScatter(c);
   std::vector<double> kept;
-  CleanReport report = Reject(kRejectSigmas * scale, c, edge, kept);
+  CleanReport report = Reject(bound, c, edge, kept);
   Widen(c, kept, edge, report);
   return report;
 }

@@ -227,6 +227,10 @@ FamilyFit FitSpline(const FamilyInput& input,
   const SplineCoefficients c =
       CoefficientsOf(space, state.shape.data(), state.reaches[0], state.zeros[0]);
   const double length_mm = attempt.data.length_mm;
+  constexpr double kRunaway = 100;  // blade lengths off the axis: the minimiser lost the edge
+  if (!c.value.allFinite() || c.value.cwiseAbs().maxCoeff() > kRunaway) {
+    throw Refused(Reason::kFitFailed, "fit: the spline ran away; " + fit.termination);
+  }
   fit.curve = BladeCurve(InMm(space, c.value, length_mm), input.domain);
   fit.covariance = SplineCovariance(joint, c, attempt.data.theta_given(), length_mm);
   std::vector<std::string> free_names;

@@ -23,7 +23,8 @@ class Noise {
   std::mt19937 random_;
 };
 
-// A pair of scissors, known exactly: the upper edge y(x) at an angle, or v = s(u) turned by half of it.
+// A pair of scissors, known exactly: the upper edge y(x) at an angle, or v = s(u) turned by half of
+// it.
 struct TrueScissors {
   BladeShape shape;
   double u_first_mm = 12, u_end_mm = 60;  // free edge, from the crotch to the distal end
@@ -33,21 +34,24 @@ struct TrueScissors {
 struct SimulatedPhoto {
   double theta_rad = 0.5;
   int points = 400;
-  double sigma_mm = 0.02;           // of an edge point
+  double sigma_mm = 0.02;  // of an edge point
   double pivot_sigma_mm = 0.05;
   double end_along_sigma_mm = 0.2;  // of the distal ends along their edges
   double scale_sigma = 0, offset_sigma_mm = 0;
-  double correlation_length_mm = 0;  // the noise of neighbours is a running mean over this
+  double correlation_length_mm = 0;   // the noise of neighbours is a running mean over this
   Eigen::Vector2d pivot_mm = {0, 0};  // in the frame of the EdgePoints
   double axis_rad = 0;
   bool lower = true;
   bool theta_given = false;
   double theta_sigma_rad = 0.001;
-  double noise_scale = 1;           // 0: exact observations with the stated sigmas; 2: sigmas too small by two
+  double noise_scale =
+      1;  // 0: exact observations with the stated sigmas; 2: sigmas too small by two
 };
 
 // The same observations that the fit gets from a photograph.
-[[nodiscard]] EdgePoints Photograph(const TrueScissors& scissors, const SimulatedPhoto& photo, Noise& noise);
+[[nodiscard]] EdgePoints Photograph(const TrueScissors& scissors,
+                                    const SimulatedPhoto& photo,
+                                    Noise& noise);
 
 // An edge of radius about 250 mm that crosses the ray to its end: s(u_end) = 0.
 [[nodiscard]] TrueScissors CurvedScissors();

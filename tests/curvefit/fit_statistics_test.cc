@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "curvefit/bands.h"
+#include "curvefit/fit.h"
+#include "fit_errors.h"
+#include "simulated_edges.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr int kDraws = 500;
+
+// What many draws of the same photographs give.
+struct Tally {
+  double chi2_per_freedom = 0;  // mean
+  double covered = 0;  // part of (draw, x) at which the 95 % interval of phi holds the truth
+  double squares = 0;  // mean of (error/sigma)^2 of phi
+  double pivot = 0, theta = 0;  // the same of the pose
+};
+
+Tally Draw(const TrueScissors& scissors, const std::vector<SimulatedPhoto>& photos, int draws) {
+  const BladeCurve truth = TrueCurve(scissors);
+  const double theta = photos.front().theta_rad;
+  const std::array<double, 4> places = {16, 27, 39, 51};
+  Tally tally;
+  for (int draw = 0; draw < draws; ++draw) {
+    Noise noise(1000 + draw);
+    std::vector<EdgePoints> seen;
+    for (const SimulatedPhoto& photo : photos) seen.push_back(Photograph(scissors, photo, noise));
+    const FamilyFit fit = FitBlade(seen).recommended;
+    const CurveBand band(fit);
+    for (const double x : places) {
+      const double error = fit.curve.Eval(x, theta).phi_mm - truth.Eval(x, theta).phi_mm;
+      const double z = error / band.At(x, theta).phi_mm;
+      tally.covered += std::abs(z) < 1.96 ? 1 : 0;
+      tally.squares += z * z;
+    }
+    const FittedPose& pose = fit.poses.front();
+    tally.pivot += (pose.pivot_mm - photos.front().pivot_mm).squaredNorm() /
+                   (2 * pose.pivot_sigma_mm * pose.pivot_sigma_mm);
+    tally.theta += std::pow((pose.theta_rad - theta) / pose.theta_sigma_rad, 2);
+    tally.chi2_per_freedom += fit.residual_tests.chi2_per_freedom;
+  }
+  tally.covered /= draws * static_cast<double>(places.size());
+  tally.squares /= draws * static_cast<double>(places.size());
+  tally.pivot /= draws;
+  tally.theta /= draws;
+  tally.chi2_per_freedom /= draws;
+  return tally;
+}
+
+void ExpectHonest(const Tally& tally) {
+  EXPECT_GT(tally.chi2_per_freedom, 0.9);
+  EXPECT_LT(tally.chi2_per_freedom, 1.1);
+  EXPECT_GT(tally.covered, 0.93);
+  EXPECT_LT(tally.covered, 0.97);
+  // Errors of one draw go together along the edge: 500 draws know their mean square to 6 %; 3 of
+  // these sigmas.
+  EXPECT_NEAR(tally.squares, 1, 0.19);
+  EXPECT_NEAR(tally.pivot, 1, 0.19);
+  EXPECT_NEAR(tally.theta, 1, 0.19);
+}
+
+TEST(FitStatistics, StatedSigmasHoldForOnePhotograph) {
+  ExpectHonest(Draw(CurvedScissors(), {SimulatedPhoto{}}, kDraws));
+}
+
+TEST(FitStatistics, StatedSigmasHoldWithSystematicErrorsAndCorrelatedNeighbours) {
+  SimulatedPhoto photo;
+  photo.scale_sigma = 0.002;
+  photo.offset_sigma_mm = 0.02;
+  photo.correlation_length_mm = 0.5;
+  photo.pivot_mm = {0.3, -0.2};
+  photo.axis_rad = 0.05;
+  ExpectHonest(Draw(CurvedScissors(), {photo}, kDraws));
+}
+
+TEST(FitStatistics, StatedSigmasHoldForThreePhotographs) {
+  std::vector<SimulatedPhoto> photos(3);
+  photos[1].theta_rad = 0.15;
+  photos[2].theta_rad = 1.0;
+  for (SimulatedPhoto& photo : photos) photo.points = 200;
+  ExpectHonest(Draw(CurvedScissors(), photos, kDraws));
+}
+
+// sigma of phi in the middle of the edge.
+double SigmaOf(const std::vector<EdgePoints>& photos) {
+  return CurveBand(FitBlade(photos).recommended).At(35, 0.5).phi_mm;
+}
+
+TEST(FitStatistics, ThreePhotographsBeatOneAsTheBoundPredicts) {
+  // At one angle three equal photographs hold three times the information.
+  Noise noise(3);
+  std::vector<EdgePoints> photos;
+  for (int i = 0; i < 3; ++i) photos.push_back(Photograph(CurvedScissors(), {}, noise));
+  EXPECT_NEAR(SigmaOf({photos[0]}) / SigmaOf(photos), std::sqrt(3.0), 0.02 * std::sqrt(3.0));
+}
+
+TEST(FitStatistics, ErrorFallsAsTheRootOfThePoints) {
+  SimulatedPhoto few, many;
+  for (SimulatedPhoto* photo : {&few, &many}) {
+    photo->pivot_sigma_mm = photo->end_along_sigma_mm = 1e-4;
+    photo->lower = false;
+  }
+  few.points = 300;
+  many.points = 2700;
+  Noise noise(4);
+  const double ratio = SigmaOf({Photograph(CurvedScissors(), few, noise)}) /
+                       SigmaOf({Photograph(CurvedScissors(), many, noise)});
+  EXPECT_NEAR(ratio, 3, 0.1);
+}
+
+// Slope of the best line through all points of both edges, pose known: what cannot be beaten. Each
+// edge is mirrored onto the upper one.
+double BestSlope(const EdgePoints& edges) {
+  double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const auto* edge : {&edges.upper, &edges.lower}) {
+    const double side = edge == &edges.upper ? 1 : -1;
+    for (const EdgePoint& p : *edge) {
+      const Eigen::Vector2d q(p.point_mm.x(), side * p.point_mm.y());
+      n += 1, x += q.x(), y += q.y(), xx += q.x() * q.x(), xy += q.x() * q.y();
+    }
+  }
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+TEST(FitStatistics, TaperedFormIsEfficient) {
+  SimulatedPhoto photo;
+  photo.theta_given = true;
+  photo.theta_sigma_rad = photo.pivot_sigma_mm = photo.end_along_sigma_mm = 1e-7;
+  FitOptions options;
+  options.family = Family::kTaperedRectangle;
+  const TrueScissors scissors = TaperedScissors();
+  const double truth = TrueCurve(scissors).Eval(30, photo.theta_rad).phi_x;
+  double fitted = 0, best = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Noise noise(5000 + draw);
+    const EdgePoints edges = Photograph(scissors, photo, noise);
+    const BladeFit fit = FitBlade({edges}, options);
+    fitted += std::pow(fit.recommended.curve.Eval(30, photo.theta_rad).phi_x - truth, 2);
+    best += std::pow(BestSlope(edges) - truth, 2);
+  }
+  EXPECT_GT(best / fitted, 0.95) << "variance of the best line over ours";
+}
+
+}  // namespace
+}  // namespace bladecurve
