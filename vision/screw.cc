@@ -94,6 +94,7 @@ class Octave {
       KeepBetter(Judge(candidate.rim.OutOf(coarse_.origin, coarse_.scale)), best);
     }
     if (best && best->evidence > kPromising) best = Polish(*best);
+    if (best && best->fit.third_support < kLeastThird) return std::nullopt;
     return best;
   }
 
@@ -121,7 +122,7 @@ class Octave {
     const double judged_radius = fit->rim.MeanRadius();
     fit->rim = fit->rim.OutOf(fine_.origin, fine_.scale);
     fit->center_covariance *= fine_.scale * fine_.scale;
-    if (fit->third_support < kLeastThird || !Admissible(fit->rim, search_)) return std::nullopt;
+    if (!Admissible(fit->rim, search_)) return std::nullopt;
     const Eigen::Vector2d axes = fit->rim.SemiAxes();
     const double contrast =
         field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));

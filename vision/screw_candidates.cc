@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kRadiusRatio =
     1.07;  // of neighbouring circles: half the field's blur on a rim of 14 px
-constexpr float kLeastScore = 0.4F;  // below: what any textured ground reaches by chance
-constexpr std::size_t kPeaks = 16;   // circles to be bent into ellipses
-constexpr std::size_t kKept = 12;    // ellipses to be looked at closely
+constexpr float kLeastScore = 0.4F;   // below: what any textured ground reaches by chance
+constexpr std::size_t kPeaks = 100;   // circles to be asked for straight edges
+constexpr std::size_t kClimbed = 20;  // circles to be bent into ellipses
+constexpr std::size_t kKept = 8;      // ellipses to be looked at closely
 constexpr double kSamePx = 0.7;  // closer in centre and radius than this: the same rim found twice
 constexpr double kMostElongation =
     0.12;  // |ln(a/b)|/2; beyond 38 degrees of tilt it is half a head cut by its slot
@@ -137,8 +138,15 @@ std::vector<RimCandidate> FindRimCandidates(const RimField& field, const OctaveS
   std::vector<RimCandidate> candidates =
       CirclePeaks(ScoreAllCircles(field, centers), centers, search);
   KeepBest(candidates, kPeaks);
-  for (RimCandidate& candidate : candidates) candidate = Climb(field, candidate);
-  KeepBest(candidates, kPeaks);
+  for (RimCandidate& candidate : candidates) {
+    candidate.score = field.ScoreWithoutTangents(candidate.rim);
+  }
+  KeepBest(candidates, kClimbed);
+  for (RimCandidate& candidate : candidates) {
+    candidate = Climb(field, candidate);
+    candidate.score = field.ScoreWithoutTangents(candidate.rim);
+  }
+  KeepBest(candidates, kClimbed);
   candidates = WithoutRepeats(candidates);
   KeepBest(candidates, kKept);
   return candidates;
