@@ -242,7 +242,6 @@ void GradeBlades(BladePair* pair) {
   Apply({{Grade(std::max(a.roughness, b.roughness), 0.02, 0.08), "an edge is not smooth"},
          {Grade(std::max(a.bend, b.bend), 0.08, 0.22), "a blade is strongly bent"},
          {Grade(std::max(a.taper, b.taper), 1.0, 1.5), "a blade widens towards its end"},
-         {Grade(wider / longer, 0.30, 0.60), "a limb is too wide for a blade"},
          {Grade(1 - std::min(a.length, b.length) / longer, 0.25, 0.55),
           "the blades differ in length"},
          {Grade(wider / std::max(1.0, std::min(a.width, b.width)), 2.5, 5.0),
@@ -323,11 +322,10 @@ void PlacePivot(const cv::Mat& filled, BladePair* pair) {
     const double weight = std::max(0.0, 1.12 * narrowest + 1 - widths[k]);
     spread += weight * std::pow((centers[k] - mean).dot(axis), 2);
   }
-  const Vector2d middle = 0.5 * (pair->crotch + back);
   pair->shank_width = narrowest;
   pair->pivot = mean;
-  pair->pivot_sigma =
-      std::max({0.1 * narrowest, std::sqrt(spread / sum), 0.25 * (mean - middle).norm()});
+  // On scissors with a known screw the waist is off by 7 % of the overlap, rms.
+  pair->pivot_sigma = std::max({0.1 * narrowest, 0.07 * overlap.norm(), std::sqrt(spread / sum)});
 }
 
 // The part of a blade's far side that faces the tip: from the tip back to beside the crotch.
@@ -384,7 +382,11 @@ std::optional<BladePair> PairAt(const Silhouette& silhouette,
   if (pair.quality <= 0) return std::nullopt;
   PlacePivot(silhouette.filled, &pair);
   const double wider = std::max(pair.first.width, pair.second.width);
-  Apply({{Grade(-pair.shank_width / std::max(1.0, wider), -0.6, -0.25), "the blades do not join"}},
+  // Length from the pivot: a shadow may fill the gap and move the crotch, not the pivot.
+  const double length =
+      std::min((pair.first.tip - pair.pivot).norm(), (pair.second.tip - pair.pivot).norm());
+  Apply({{Grade(-pair.shank_width / std::max(1.0, wider), -0.6, -0.25), "the blades do not join"},
+         {Grade(wider / length, 0.35, 0.60), "a limb is too wide for a blade"}},
         &pair);
   return pair;
 }

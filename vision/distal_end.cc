@@ -11,60 +11,56 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Offsets of the edge's points from a cubic through its proximal part, over the position along the
-// chord.
-struct Residuals {
-  std::vector<double> along_px;
-  std::vector<double> off_px;
+constexpr int kSmooth = 4;  // a cubic: cutting edges bend no more than that over their length
+constexpr double kProximalFrom = 0.06;  // the crotch may still be blurred there
+constexpr double kEarliest = 0.70;      // tips round off in the last third at most
+
+// The edge in the frame of its chord: position along it in [0, 1] of its length, offset across it
+// in px, towards the blade.
+struct ChordFrame {
+  std::vector<double> along, across_px;
+  double length_px = 0;
 };
 
-constexpr double kProximalFrom = 0.08;  // the crotch may still be blurred there
-constexpr double kProximalTo = 0.80;    // tips round off in the last fifth at most
-
-Residuals OffsetsFromSmoothEdge(const std::vector<Vector2d>& edge) {
+ChordFrame InChordFrame(const std::vector<Vector2d>& edge) {
+  ChordFrame frame;
   const Vector2d origin = edge.front();
-  const Vector2d along = (edge[edge.size() * 4 / 5] - origin).normalized();
-  const Vector2d across(-along.y(), along.x());
-  Residuals r;
+  const Vector2d axis = (edge[edge.size() * 4 / 5] - origin).normalized();
+  const Vector2d normal(-axis.y(), axis.x());
+  frame.length_px = (edge.back() - origin).dot(axis);
   for (const Vector2d& p : edge) {
-    r.along_px.push_back((p - origin).dot(along));
-    r.off_px.push_back((p - origin).dot(across));
+    frame.along.push_back((p - origin).dot(axis) / frame.length_px);
+    frame.across_px.push_back((p - origin).dot(normal));
   }
-  const double length = r.along_px.back();
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < edge.size(); ++i) {
-    const double t = r.along_px[i] / length;
-    if (t > kProximalFrom && t < kProximalTo) used.push_back(i);
-  }
-  const auto row = [&](std::size_t i) {
-    const double t = r.along_px[i] / length;
-    return Eigen::RowVector4d(1, t, t * t, t * t * t);
-  };
-  Eigen::MatrixXd terms(static_cast<Eigen::Index>(used.size()), 4);
-  Eigen::VectorXd values(static_cast<Eigen::Index>(used.size()));
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    terms.row(static_cast<Eigen::Index>(k)) = row(used[k]);
-    values[static_cast<Eigen::Index>(k)] = r.off_px[used[k]];
-  }
-  const Eigen::Vector4d c = terms.colPivHouseholderQr().solve(values);
-  for (std::size_t i = 0; i < edge.size(); ++i) r.off_px[i] -= row(i) * c;
-  return r;
+  return frame;
 }
 
-// Sum of squares left after the best curvature for a tip that begins at t0, over the points from
-// `from` on.
-double SquaresLeft(const Residuals& r, std::size_t from, double t0) {
-  double wy = 0;
-  double ww = 0;
-  double yy = 0;
-  for (std::size_t i = from; i < r.off_px.size(); ++i) {
-    const double d = std::max(0.0, r.along_px[i] - t0);
-    const double w = 0.5 * d * d;
-    wy += w * r.off_px[i];
-    ww += w * w;
-    yy += r.off_px[i] * r.off_px[i];
+// Least squares of a cubic plus a bend k max(0, t - t0)^2 that sets in at t0: the tip's rounding.
+struct BendFit {
+  double squares = 0;
+  double bend_px = 0;  // k
+};
+
+BendFit FitBend(const ChordFrame& edge, double t0) {
+  Eigen::Matrix<double, kSmooth + 1, kSmooth + 1> normal;
+  Eigen::Matrix<double, kSmooth + 1, 1> right;
+  normal.setZero();
+  right.setZero();
+  double sum = 0;
+  Eigen::Matrix<double, kSmooth + 1, 1> row;
+  for (std::size_t i = 0; i < edge.along.size(); ++i) {
+    const double t = edge.along[i];
+    if (t < kProximalFrom) continue;
+    const double d = std::max(0.0, t - t0);
+    const double s = 2 * t - 1;
+    row << 1, s, s * s, s * s * s, d * d;
+    normal += row * row.transpose();
+    right += row * edge.across_px[i];
+    sum += edge.across_px[i] * edge.across_px[i];
   }
-  return ww > 0 ? yy - wy * wy / ww : yy;
+  normal.diagonal().array() += 1e-12 * normal.trace();  // without points beyond t0 there is no bend
+  const Eigen::Matrix<double, kSmooth + 1, 1> c = normal.ldlt().solve(right);
+  return {std::max(0.0, sum - c.dot(right)), c[kSmooth]};
 }
 
 }  // namespace
@@ -75,38 +71,44 @@ DistalEnd FindDistalEnd(const std::vector<Vector2d>& edge, double sigma_px) {
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length};
   }
-  const Residuals r = OffsetsFromSmoothEdge(edge);
-  const double length = r.along_px.back();
-  const std::size_t from = edge.size() * 3 / 5;
-  constexpr double kStep = 0.25;  // px
-  const double first = 0.75 * length;
-  double best_t = length;
-  double best = SquaresLeft(r, from, length);
+  const ChordFrame frame = InChordFrame(edge);
+  const double last = frame.along.back();
+  const double step = std::max(0.25, frame.length_px / 1000) / frame.length_px;
+  const BendFit straight = FitBend(frame, 2 * last);
+  double best_t = last;
+  double best = straight.squares;
+  std::vector<double> places;
   std::vector<double> squares;
-  for (double t = first; t < length; t += kStep) {
-    squares.push_back(SquaresLeft(r, from, t));
-    if (squares.back() < best) {
-      best = squares.back();
+  for (double t = kEarliest; t < last; t += step) {
+    const BendFit fit = FitBend(frame, t);
+    places.push_back(t);
+    squares.push_back(fit.squares);
+    // A tip's radius is a fraction of the blade's width; a bend wider than a fifth of the length is
+    // the edge's own curve.
+    const double radius =
+        frame.length_px / std::max(1e-9, 2 * std::abs(fit.bend_px) / frame.length_px);
+    if (fit.squares < best && radius < 0.2 * frame.length_px) {
+      best = fit.squares;
       best_t = t;
     }
   }
-  // Places that explain the points about as well: within chi-square 1 of correlated points.
-  const double scatter =
-      std::max(sigma_px, std::sqrt(best / static_cast<double>(edge.size() - from)));
-  constexpr double kCorrelatedPoints = 4;
+  // Neighbouring points are correlated: an improvement of that many squared sigmas may be chance.
+  constexpr double kChance = 12;
+  const double scatter = std::max(sigma_px, std::sqrt(best / static_cast<double>(edge.size())));
+  if (straight.squares - best < kChance * scatter * scatter) best_t = last;
   double low = best_t;
   double high = best_t;
   for (std::size_t k = 0; k < squares.size(); ++k) {
-    if (squares[k] > best + kCorrelatedPoints * scatter * scatter) continue;
-    low = std::min(low, first + static_cast<double>(k) * kStep);
-    high = std::max(high, first + static_cast<double>(k) * kStep);
+    if (squares[k] > best + kChance * scatter * scatter) continue;
+    low = std::min(low, places[k]);
+    high = std::max(high, places[k]);
   }
   DistalEnd end;
   const auto after =
-      std::find_if(r.along_px.begin(), r.along_px.end(), [&](double t) { return t > best_t; });
-  end.index = static_cast<std::size_t>(after - r.along_px.begin());
+      std::find_if(frame.along.begin(), frame.along.end(), [&](double t) { return t >= best_t; });
+  end.index = static_cast<std::size_t>(after - frame.along.begin());
   end.point_px = edge[std::min(end.index, edge.size() - 1)];
-  end.along_sigma_px = std::max(0.5, 0.5 * (high - low));
+  end.along_sigma_px = std::max(0.5, 0.3 * (high - low) * frame.length_px);
   return end;
 }
 

@@ -13,6 +13,7 @@
 #include "vision/pivot.h"
 #include "vision/refused.h"
 #include "vision/scene.h"
+#include "vision/tip_cap.h"
 
 namespace bladecurve {
 namespace {
@@ -22,6 +23,7 @@ using Eigen::Vector2d;
 
 // Both cutting edges as located, and where they round off into the tips.
 struct LocatedBlade {
+  bool on_left = true;
   LocatedEdge edge;
   DistalEnd end;
   std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
@@ -64,15 +66,57 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
+// How far the second edge lies outside the first, px: median over every fourth point.
+double Outside(const LocatedEdge& first, const LocatedEdge& second) {
+  std::vector<double> offsets;
+  for (std::size_t i = 0; i < second.points.size(); i += 4) {
+    const Vector2d& p = second.points[i].point_px;
+    const auto nearest =
+        std::min_element(first.points.begin(),
+                         first.points.end(),
+                         [&](const LocatedEdgePoint& a, const LocatedEdgePoint& b) {
+                           return (a.point_px - p).squaredNorm() < (b.point_px - p).squaredNorm();
+                         });
+    offsets.push_back((p - nearest->point_px).dot(nearest->normal));
+  }
+  if (offsets.empty()) return 0;
+  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+  std::nth_element(offsets.begin(), middle, offsets.end());
+  return *middle;
+}
+
+// Of two borders: a shadow's is soft, and of two sharp ones the outer is the silhouette, bevels and
+// ridges lie within.
+bool BetterBorder(const LocatedEdge& candidate, const LocatedEdge& best) {
+  constexpr double kSofter = 1.8;  // ratio of the blurs that tells a shadow from metal
+  constexpr double kSameEdge = 1;  // px
+  if (candidate.blur_px > kSofter * best.blur_px) return false;
+  if (best.blur_px > kSofter * candidate.blur_px) return true;
+  return Outside(best, candidate) > kSameEdge;
+}
+
+// Near the trace first; where that is not clear, as far as a shadow or a bevel may have led it
+// astray.
 LocatedBlade Locate(const Photo& photo, const ToneCurve& tone, const Scene& scene, bool left) {
   const SceneBlade& blade = left ? scene.left : scene.right;
   EdgeGuess guess;
   guess.path_px = blade.inner_px;
   guess.blade_on_left = left;
-  // The small picture's pixel, and a shadow that may have passed for a part of the blade.
-  guess.search_px = std::max(5.0, 1.5 * scene.path_sigma_px + 0.08 * blade.width_px);
   LocatedBlade located;
-  located.edge = LocateEdge(photo.grey(), tone, guess);
+  located.on_left = left;
+  bool found = false;
+  std::optional<Refused> why;
+  for (const double share_of_width : {0.08, 0.14, 0.2}) {
+    guess.search_px = std::max(5.0, 1.5 * scene.path_sigma_px + share_of_width * blade.width_px);
+    try {
+      LocatedEdge edge = LocateEdge(photo.grey(), tone, guess);
+      if (!found || BetterBorder(edge, located.edge)) located.edge = std::move(edge);
+      found = true;
+    } catch (const Refused& refused) {
+      why = refused;
+    }
+  }
+  if (!found) throw *why;
   return located;
 }
 
@@ -93,10 +137,39 @@ double MedianSigma(const std::vector<LocatedEdgePoint>& points) {
   return *middle;
 }
 
+// The distal end by the arc of the tip, where that is seen; else by where the edge leaves its
+// smooth course.
+DistalEnd FindEnd(const Photo& photo,
+                  const Scene& scene,
+                  const LocatedBlade& blade,
+                  const std::vector<Vector2d>& points) {
+  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
+  const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
+  TipSearch search;
+  search.tip_px = seen.tip_px;
+  search.blade_width_px = seen.width_px;
+  search.reach_px = std::max(8.0, 4 * scene.path_sigma_px);
+  search.blade_on_left = blade.on_left;
+  const std::optional<TipCap> cap = FitTipCap(photo.grey(), points, search);
+  if (!cap || cap->scatter_px > kClearArc)
+    return FindDistalEnd(points, MedianSigma(blade.edge.points));
+  const Vector2d along = (points[points.size() * 4 / 5] - points.front()).normalized();
+  const auto beyond = std::find_if(points.begin(), points.end(), [&](const Vector2d& p) {
+    return (p - cap->end_px).dot(along) > 0;
+  });
+  DistalEnd end;
+  end.point_px = cap->end_px;
+  end.index = static_cast<std::size_t>(beyond - points.begin());
+  // The arc's start is known to a few tenths of its radius: real tips are not quite round.
+  end.along_sigma_px = std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px));
+  return end;
+}
+
 // Keeps what lies between the crotch, where the other blade's edge is near, and the distal end.
-void Trim(const Vector2d& crotch_px, LocatedBlade* blade) {
+void Trim(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
+  const Vector2d& crotch_px = scene.crotch_px;
   const std::vector<Vector2d> points = InlierPoints(blade->edge);
-  blade->end = FindDistalEnd(points, MedianSigma(blade->edge.points));
+  blade->end = FindEnd(photo, scene, *blade, points);
   const double blur = std::isfinite(blade->edge.blur_px) ? blade->edge.blur_px : 1;
   const double clear =
       4 * blur + 2;  // nearer to the crossing, light of the other blade's edge reaches this one
@@ -251,8 +324,8 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
   LocatedBlade upper = Locate(photo, scale.tone, scene, upper_on_left);
   LocatedBlade lower = Locate(photo, scale.tone, scene, !upper_on_left);
-  Trim(scene.crotch_px, &upper);
-  Trim(scene.crotch_px, &lower);
+  Trim(photo, scene, &upper);
+  Trim(photo, scene, &lower);
   log.Ran("edges", "full resolution along the blades only");
   const LocatedBlade& left = upper_on_left ? upper : lower;
   const LocatedBlade& right = upper_on_left ? lower : upper;

@@ -56,15 +56,23 @@ Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
   return pivot;
 }
 
-std::optional<Screw> LookForScrew(const cv::Mat& grey, const ToneCurve& tone, const Scene& scene) {
+// A near look first: fewer other arcs compete. Then as far as the geometry may be off.
+std::optional<Screw> LookForScrew(const cv::Mat& grey,
+                                  const ToneCurve& tone,
+                                  const Scene& scene,
+                                  const Vector2d& guess_px) {
   ScrewSearch search;
-  search.guess_px = scene.pivot_px;
+  search.guess_px = guess_px;
   // Heads of screws and rivets are a fifth to nine tenths of the shank wide.
   search.min_semi_axis_px = std::max(3.0, 0.10 * scene.shank_width_px);
   search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
-  search.radius_px =
-      std::clamp(2 * scene.pivot_sigma_px, 0.25 * scene.shank_width_px, 0.6 * scene.shank_width_px);
-  return FindScrew(grey, tone, search);
+  const double far = std::clamp(
+      2.5 * scene.pivot_sigma_px, 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
+  for (const double radius : {0.5 * far, far}) {
+    search.radius_px = radius;
+    if (std::optional<Screw> screw = FindScrew(grey, tone, search)) return screw;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -87,10 +95,11 @@ Pivot FindPivot(const cv::Mat& grey,
   Pivot pivot;
   if (hint_px) {
     pivot = {*hint_px, Eigen::Matrix2d::Identity(), "hint", 0};
-  } else if (const std::optional<Screw> screw = LookForScrew(grey, tone, scene)) {
-    pivot = {screw->center_px, screw->covariance_px2, "screw", 0};
   } else {
     pivot = FromGeometry(scene, edges);
+    if (const std::optional<Screw> screw = LookForScrew(grey, tone, scene, pivot.point_px)) {
+      pivot = {screw->center_px, screw->covariance_px2, "screw", 0};
+    }
   }
   pivot.asymmetry = EdgeAsymmetry(edges, pivot.point_px);
   return pivot;
