@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/tip_cap.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
+struct EdgeAxis {
+  Vector2d origin, along, inwards;
+  Eigen::Vector3d parabola;  // offset of the edge over (position - middle)
+  double middle = 0;
+
+  [[nodiscard]] double EdgeOffset(double t) const {
+    const double s = t - middle;
+    return parabola[0] + s * (parabola[1] + s * parabola[2]);
+  }
+  // The point at position t, `depth` px inside the blade.
+  [[nodiscard]] Vector2d At(double t, double depth) const {
+    return origin + t * along + (EdgeOffset(t) + depth) * inwards;
+  }
+};
+
+// A parabola through the part of the edge that is clear of the crotch and of the tip.
+EdgeAxis ContinueEdge(const std::vector<Vector2d>& edge, const TipSearch& search) {
+  EdgeAxis axis;
+  axis.origin = edge.front();
+  axis.along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+  const Vector2d left(axis.along.y(), -axis.along.x());
+  axis.inwards = search.blade_on_left ? left : Vector2d(-left);
+  const double length = (search.tip_px - axis.origin).dot(axis.along);
+  axis.middle = 0.65 * length;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Vector2d& p : edge) {
+    const double t = (p - axis.origin).dot(axis.along);
+    if (t < 0.4 * length || t > 0.88 * length) continue;
+    const double s = t - axis.middle;
+    const Eigen::Vector3d row(1, s, s * s);
+    normal += row * row.transpose();
+    right += row * (p - axis.origin).dot(axis.inwards);
+  }
+  normal.diagonal().array() += 1e-9;
+  axis.parabola = normal.ldlt().solve(right);
+  return axis;
+}
+
+double Sample(const cv::Mat& grey, const Vector2d& p) {
+  const double x = std::clamp(p.x(), 0.0, grey.cols - 1.001);
+  const double y = std::clamp(p.y(), 0.0, grey.rows - 1.001);
+  const int ix = static_cast<int>(x);
+  const int iy = static_cast<int>(y);
+  const double fx = x - ix;
+  const double fy = y - iy;
+  const uchar* top = grey.ptr<uchar>(iy) + ix;
+  const uchar* bottom = grey.ptr<uchar>(iy + 1) + ix;
+  return (1 - fy) * ((1 - fx) * top[0] + fx * top[1]) +
+         fy * ((1 - fx) * bottom[0] + fx * bottom[1]);
+}
+
+struct EndSeen {
+  double depth = 0, position = 0;
+};
+
+// The strongest step along one line, if it stands out from the others on it.
+std::optional<EndSeen> LookAlong(
+    const cv::Mat& grey, const EdgeAxis& axis, double depth, double from, double to) {
+  constexpr double kStep = 0.5;
+  constexpr int kHalf = 3;          // samples on either side that are averaged
+  constexpr double kLeastGrey = 6;  // steps below that are noise
+  std::vector<double> values;
+  for (double t = from - kHalf * kStep; t <= to + kHalf * kStep; t += kStep) {
+    const Vector2d p = axis.At(t, depth);
+    if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
+      return std::nullopt;
+    values.push_back(Sample(grey, p));
+  }
+  double best = 0;
+  std::size_t best_at = 0;
+  std::vector<double> steps(values.size(), 0.0);
+  for (std::size_t i = kHalf; i + kHalf < values.size(); ++i) {
+    double step = 0;
+    for (int k = 1; k <= kHalf; ++k) {
+      step += values[i + static_cast<std::size_t>(k)] - values[i - static_cast<std::size_t>(k)];
+    }
+    steps[i] = std::abs(step) / kHalf;
+    if (steps[i] > best) {
+      best = steps[i];
+      best_at = i;
+    }
+  }
+  if (best < kLeastGrey) return std::nullopt;
+  // Sub-sample by the parabola through the peak.
+  double shift = 0;
+  if (best_at > 0 && best_at + 1 < steps.size()) {
+    const double curvature = steps[best_at - 1] - 2 * best + steps[best_at + 1];
+    if (curvature < 0)
+      shift = std::clamp(0.5 * (steps[best_at - 1] - steps[best_at + 1]) / curvature, -0.5, 0.5);
+  }
+  return EndSeen{depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift)};
+}
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Arc {
+  double start = 0, radius = 0, cost = 1e300;
+};
+
+// Median place and scatter of where an arc of this radius begins, over the ends seen up to its own
+// depth.
+Arc ArcOfRadius(const std::vector<EndSeen>& ends, double radius) {
+  std::vector<double> starts;
+  for (const EndSeen& end : ends) {
+    if (end.depth > 1.2 * radius) continue;  // beyond its crown another side of the tip begins
+    const double rise = radius - end.depth;
+    starts.push_back(end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise)));
+  }
+  if (starts.size() < 4) return {};
+  const double start = Median(starts);
+  for (double& s : starts) s = std::abs(s - start);
+  // More lines explained are worth more than a slightly smaller scatter.
+  return {start, radius, (Median(starts) + 0.15) / std::sqrt(static_cast<double>(starts.size()))};
+}
+
+}  // namespace
+
+std::optional<TipCap> FitTipCap(const cv::Mat& grey,
+                                const std::vector<Vector2d>& edge,
+                                const TipSearch& search) {
+  if (edge.size() < 12) return std::nullopt;
+  const EdgeAxis axis = ContinueEdge(edge, search);
+  const double tip = (search.tip_px - axis.origin).dot(axis.along);
+  const double deepest = std::max(6.0, 0.45 * search.blade_width_px);
+  std::vector<EndSeen> ends;
+  for (double depth = 1; depth <= deepest; depth += std::max(0.5, deepest / 40)) {
+    const auto end = LookAlong(grey, axis, depth, tip - search.reach_px, tip + search.reach_px);
+    if (end) ends.push_back(*end);
+  }
+  if (ends.size() < 6) return std::nullopt;
+  Arc best;
+  for (double radius = 1.5; radius <= deepest; radius *= 1.05) {
+    const Arc arc = ArcOfRadius(ends, radius);
+    if (arc.cost < best.cost) best = arc;
+  }
+  if (best.radius == 0) return std::nullopt;
+  TipCap cap;
+  std::vector<double> off;
+  for (const EndSeen& end : ends) {
+    if (end.depth > 1.2 * best.radius) continue;
+    const double rise = best.radius - end.depth;
+    const double along = std::sqrt(std::max(0.0, best.radius * best.radius - rise * rise));
+    off.push_back(std::abs(end.position - best.start - along));
+  }
+  cap.seen = static_cast<int>(off.size());
+  cap.scatter_px = 1.4826 * Median(off);
+  cap.radius_px = best.radius;
+  cap.end_px = axis.At(best.start, 0);
+  return cap;
+}
+
+}  // namespace bladecurve

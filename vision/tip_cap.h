@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+namespace bladecurve {
+
+// The rounded end of a blade: an arc that leaves the cutting edge tangentially.
+struct TipCap {
+  Eigen::Vector2d end_px;  // where the arc leaves the edge: the distal end
+  double radius_px = 0;
+  double scatter_px = 0;  // of the outline seen about the arc, robust
+  int seen = 0;           // lines along which the outline was seen
+};
+
+struct TipSearch {
+  Eigen::Vector2d tip_px;     // roughly the furthest point of the blade
+  double reach_px = 10;       // how far from there the outline may lie
+  double blade_width_px = 0;  // half way along the blade
+  bool blade_on_left = true;  // of the edge, as in EdgeGuess
+};
+
+// Looks along lines parallel to the cutting edge, within the blade, for where the blade ends, and
+// fits the arc to what they show. It needs no visible edge near the tip: bevels often mirror the
+// background there. `edge` runs from the crotch to about the tip. std::nullopt where too few lines
+// show an end.
+[[nodiscard]] std::optional<TipCap> FitTipCap(const cv::Mat& grey,
+                                              const std::vector<Eigen::Vector2d>& edge,
+                                              const TipSearch& search);
+
+}  // namespace bladecurve
