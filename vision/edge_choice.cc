@@ -123,17 +123,36 @@ Survey Straightened(const cv::Mat& grey, const EdgePath& guess, double search_px
   return Take(grey, std::move(path), offsets, search_px, {4, 9});
 }
 
+// Highest clear step of each station.
+std::vector<double> HighestSteps(const StepMap& map) {
+  std::vector<double> highest(Index(map.stations), 1e-9);
+  for (int station = 0; station < map.stations; ++station) {
+    for (int row = 0; row < map.rows; ++row) {
+      const size_t at = map.At(station, row);
+      highest[Index(station)] = std::max(
+          highest[Index(station)], static_cast<double>(std::abs(map.height[at]) * map.clear[at]));
+    }
+  }
+  return highest;
+}
+
 StepLine OutermostLine(const Survey& survey, double search_px) {
-  constexpr double kOutwards = 0.03;  // a px: of two clear lines the outer one is the border
-  return FindBestLine(survey.map,
-                      Scores(survey,
-                             [&](int station, int row) {
-                               const double across = survey.FromGuess(station, row);
-                               if (std::abs(across) > search_px) return kForbidden;
-                               return survey.map.clear[survey.map.At(station, row)] *
-                                      static_cast<float>(1 + kOutwards * across);
-                             }),
-                      kStiffBend);
+  constexpr double kOutwards = 0.045;  // a px: of two clear lines the outer one is the border
+  constexpr double kForHeight = 0.15;  // unless it is much the lower one and near
+  const std::vector<double> highest = HighestSteps(survey.map);
+  return FindBestLine(
+      survey.map,
+      Scores(survey,
+             [&](int station, int row) {
+               const double across = survey.FromGuess(station, row);
+               if (std::abs(across) > search_px) return kForbidden;
+               const size_t at = survey.map.At(station, row);
+               const double height =
+                   std::min(std::abs(survey.map.height[at]) / highest[Index(station)], 1.0);
+               return survey.map.clear[at] *
+                      static_cast<float>(1 + kOutwards * across - kForHeight * (1 - height));
+             }),
+      kStiffBend);
 }
 
 // The best line at least `apart` rows further in than `line`, over steps of the given sign.
@@ -156,15 +175,17 @@ StepLine LineWithin(
 // it is wide, and a sharp step bounds it on the blade's side as well, it is a hard shadow and the
 // border is that inner step.
 StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double search_px) {
-  constexpr double kWidestBevel = 5.5,
+  constexpr double kWidestBevel = 7,
                    kBevelPerLength =
-                       0.006;    // px, and px a px of edge: sharper photographs show more
-  constexpr double kSeen = 0.6;  // of the outer border's share
-  if (TypicalHeight(survey.map, line) <= 0) return line;
+                       0.004;  // px, and px a px of edge: sharper photographs show more
+  constexpr double kSeen = 0.6, kHigh = 0.5;  // of the outer border's share and height
+  const double height = TypicalHeight(survey.map, line);
+  if (height <= 0) return line;
   const int apart =
       static_cast<int>(std::lround(kWidestBevel + kBevelPerLength * survey.path.size()));
   const StepLine inner = LineWithin(survey, line, apart, search_px, -1);
-  return ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line) ? inner : line;
+  const bool seen = ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line);
+  return seen && -TypicalHeight(survey.map, inner) > kHigh * height ? inner : line;
 }
 
 // Distance from the line to the next clear step, going by `toward`.

@@ -55,6 +55,14 @@ class Place {
   }
   [[nodiscard]] bool IsPeak() const { return Height() >= Height(-1) && Height() > Height(1); }
 
+  // 1 at a peak and where a peak lies between this row and the next, less on its flanks.
+  [[nodiscard]] double Peakedness() const {
+    constexpr double kFlankShare = 0.4, kLow = 0.6, kHigh = 0.9;  // of the higher neighbour
+    if (IsPeak()) return 1;
+    const double share = Height() / std::max({Height(-1), Height(1), 1e-12});
+    return kFlankShare + (1 - kFlankShare) * std::clamp((share - kLow) / (kHigh - kLow), 0.0, 1.0);
+  }
+
   // What the step has beyond a steady gradient it may sit on.
   [[nodiscard]] double AboveGradient() const {
     return Height() - 0.5 * (Height(-kBeyond) + Height(kBeyond));
@@ -102,10 +110,11 @@ double BackgroundResponse(const StepMap& map, int background_row) {
           std::abs(map.height[map.At(station, row)] - map.height[map.At(station + apart, row)]));
     }
   }
-  constexpr double kSigmaPerMedian = 1.4826;
+  // The lower quarter of |x| keeps clear of another blade that runs across the background.
+  constexpr double kShare = 0.25, kSigmaPerQuantile = 3.138;
   constexpr double kLeastResponse = 1e-3;  // a quarter of a grey level
-  return std::max(kSigmaPerMedian * Median(std::move(differences)) / std::sqrt(2.0),
-                  kLeastResponse);
+  const double quantile = SampleQuantile(std::move(differences), kShare);
+  return std::max(kSigmaPerQuantile * quantile / std::sqrt(2.0), kLeastResponse);
 }
 
 constexpr double kSigmas = 3;  // texture of normal distribution reaches this once in 400 places
@@ -130,8 +139,7 @@ double Clearness(const Place& place, double background_response, double sharp_va
   if (place.IsHalo()) return 0;
   const double relative = std::max(place.AboveGradient(), 0.0) / (kSigmas * background_response);
   const double softness = std::max(place.Variance() - sharp_variance, 0.0) / kPenumbra;
-  const double off_peak = place.IsPeak() ? 1 : 0.4;
-  return off_peak * (1 - std::exp2(-relative * relative)) / (1 + softness * softness);
+  return place.Peakedness() * (1 - std::exp2(-relative * relative)) / (1 + softness * softness);
 }
 
 }  // namespace
