@@ -88,7 +88,7 @@ double Outside(const LocatedEdge& first, const LocatedEdge& second) {
 // Of two borders: a shadow's is soft, and of two sharp ones the outer is the silhouette, bevels and
 // ridges lie within.
 bool BetterBorder(const LocatedEdge& candidate, const LocatedEdge& best) {
-  constexpr double kSofter = 1.8;  // ratio of the blurs that tells a shadow from metal
+  constexpr double kSofter = 1.6;  // ratio of the blurs that tells a shadow from metal
   constexpr double kSameEdge = 1;  // px
   if (candidate.blur_px > kSofter * best.blur_px) return false;
   if (best.blur_px > kSofter * candidate.blur_px) return true;

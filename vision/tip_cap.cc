@@ -113,23 +113,38 @@ double Median(std::vector<double> values) {
 }
 
 struct Arc {
-  double start = 0, radius = 0, cost = 1e300;
+  double start = 0, radius = 0;
+  double sunk =
+      0;  // how deep the true edge lies below the one that was followed (a shadow beside it)
+  double score = 0;  // lines explained less lines contradicted, beyond the penalty for sinking
+  double scatter = 0;
+  int seen = 0;
 };
 
-// Median place and scatter of where an arc of this radius begins, over the ends seen up to its own
-// depth.
-Arc ArcOfRadius(const std::vector<EndSeen>& ends, double radius) {
+// The arc of this radius and depth that explains most of the ends seen.
+Arc BestArc(const std::vector<EndSeen>& ends, double radius, double sunk) {
+  constexpr double kOnArc = 0.7;        // px
+  constexpr double kDeepest = 1.25;     // radii: beyond the crown another side of the tip begins
+  constexpr double kSunkPenalty = 0.8;  // lines a px
   std::vector<double> starts;
   for (const EndSeen& end : ends) {
-    if (end.depth > 1.2 * radius) continue;  // beyond its crown another side of the tip begins
-    const double rise = radius - end.depth;
+    const double depth = end.depth - sunk;
+    if (depth < 0.1 * radius || depth > kDeepest * radius) continue;
+    const double rise = radius - depth;
     starts.push_back(end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise)));
   }
-  if (starts.size() < 4) return {};
-  const double start = Median(starts);
-  for (double& s : starts) s = std::abs(s - start);
-  // More lines explained are worth more than a slightly smaller scatter.
-  return {start, radius, (Median(starts) + 0.15) / std::sqrt(static_cast<double>(starts.size()))};
+  if (starts.size() < 5) return {};
+  Arc arc{Median(starts), radius, sunk, 0, 0, 0};
+  std::vector<double> off;
+  for (const double start : starts) {
+    if (std::abs(start - arc.start) < kOnArc) off.push_back(std::abs(start - arc.start));
+  }
+  if (off.size() < 5) return {};
+  arc.seen = static_cast<int>(off.size());
+  arc.scatter = 1.4826 * Median(off);
+  arc.score =
+      2.0 * arc.seen - static_cast<double>(starts.size()) - arc.scatter - kSunkPenalty * sunk;
+  return arc;
 }
 
 }  // namespace
@@ -147,25 +162,16 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
     if (end) ends.push_back(*end);
   }
   if (ends.size() < 6) return std::nullopt;
+  constexpr double kMostSunk = 5;  // px
   Arc best;
-  for (double radius = 1.5; radius <= deepest; radius *= 1.05) {
-    const Arc arc = ArcOfRadius(ends, radius);
-    if (arc.cost < best.cost) best = arc;
+  for (double radius = 2; radius <= deepest; radius *= 1.06) {
+    for (double sunk = 0; sunk <= kMostSunk; sunk += 0.5) {
+      const Arc arc = BestArc(ends, radius, sunk);
+      if (arc.score > best.score) best = arc;
+    }
   }
-  if (best.radius == 0) return std::nullopt;
-  TipCap cap;
-  std::vector<double> off;
-  for (const EndSeen& end : ends) {
-    if (end.depth > 1.2 * best.radius) continue;
-    const double rise = best.radius - end.depth;
-    const double along = std::sqrt(std::max(0.0, best.radius * best.radius - rise * rise));
-    off.push_back(std::abs(end.position - best.start - along));
-  }
-  cap.seen = static_cast<int>(off.size());
-  cap.scatter_px = 1.4826 * Median(off);
-  cap.radius_px = best.radius;
-  cap.end_px = axis.At(best.start, 0);
-  return cap;
+  if (best.seen == 0) return std::nullopt;
+  return TipCap{axis.At(best.start, best.sunk), best.radius, best.scatter, best.seen};
 }
 
 }  // namespace bladecurve
