@@ -7,9 +7,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "vision/blurred_step.h"
-#include "vision/edge_band.h"
 #include "vision/edge_choice.h"
+#include "vision/edge_common.h"
 #include "vision/edge_fit.h"
 #include "vision/edge_path.h"
 #include "vision/edge_scatter.h"
@@ -72,7 +71,7 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   RefuseIfUnseen(fit.seen, kLeastPlaced);
   LocatedEdge edge = PointsFromFit(fit, options);
   edge.ambiguity = std::max(chosen.ambiguity, 1 - chosen.support);
-  edge.common_sigma_px = ToneSigma(fit, tone);
+  edge.common_sigma_px = CommonSigma(fit, tone, chosen);
   return edge;
 }
 

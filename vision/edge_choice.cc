@@ -198,7 +198,7 @@ double FreeDistance(const StepMap& map, int station, int row, int toward) {
     const bool peak =
         std::abs(other[0]) >= std::abs(other[-1]) && std::abs(other[0]) >= std::abs(other[1]);
     if (peak && std::abs(other[0]) > std::max(kShare * height, 3 * map.background_response))
-      return std::abs(r - row);
+      return std::abs(PeakRow(map, station, r) - PeakRow(map, station, row));
   }
   return kNoTransition;
 }

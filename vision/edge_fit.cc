@@ -63,12 +63,14 @@ class Fitter {
     path_ = std::move(path);
     offsets_.assign(path_.points.size(), 0.0);
     inner_px_ = AlongPath(options_.inner_px);
+    for (double& inner : inner_px_) inner -= face_moved_px_;
     band_ = GatherPixels(grey_, tone_, path_, {InnerReach(), OuterReach()});
   }
 
   void Improve(int stride, bool placed) {
     Solve(stride, false);
     MeasureNoise();
+    MoveFace();
     if (placed) UpdateBlur();  // an edge out of place looks blurred
     Advance();
   }
@@ -160,6 +162,21 @@ class Fitter {
     if (!blade.empty()) noise_.blade = std::max(RobustSigma(blade), kLeastNoise);
     if (!ground.empty()) noise_.ground = std::max(RobustSigma(ground), kLeastNoise);
     misfit_ = std::move(misfit);
+  }
+
+  // The inner transition's distance was read off a coarse grid, where the two push each other apart.
+  void MoveFace() {
+    constexpr double kMost = 0.5;              // px a round
+    constexpr double kPriorInformation = 100;  // 1/px^2
+    std::vector<std::pair<double, double>> steps{{0.0, kPriorInformation}};
+    for (const LevelFit& window : windows_.fits()) {
+      const double height = window.levels[kFace];
+      steps.emplace_back(window.levels[kFaceShift] / (height == 0 ? 1.0 : height),
+                         height * height / window.variances[kFaceShift] / std::max(window.chi_square_per_pixel, 1.0));
+    }
+    const double outwards = std::clamp(WeightedMedian(std::move(steps)), -kMost, kMost);
+    face_moved_px_ += outwards;
+    for (double& inner : inner_px_) inner -= outwards;
   }
 
   void UpdateBlur() {
@@ -264,6 +281,7 @@ class Fitter {
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
+  double face_moved_px_ = 0;      // the blade's inner transition, towards the edge
   std::vector<double> inner_px_;                // to the blade's inner transition, one per sample
   std::vector<PreparedPixel> prepared_, kept_;  // of one sample; of all in the last round
   EdgeWindows windows_{0};

@@ -13,16 +13,6 @@ namespace {
 
 constexpr double kClear = 0.5;
 
-// Position of the step between rows, from the parabola through the heights around it.
-double PeakRow(const StepMap& map, int station, int row) {
-  if (row < 1 || row + 1 >= map.rows) return row;
-  const float* height = &map.height[map.At(station, row)];
-  const double before = std::abs(height[-1]), at = std::abs(height[0]), after = std::abs(height[1]);
-  const double bend = before - 2 * at + after;
-  if (bend >= 0 || at < before || at < after) return row;
-  return row + 0.5 * (before - after) / bend;
-}
-
 }  // namespace
 
 StepLine FindBestLine(const StepMap& map, const std::vector<float>& score, float bend) {
@@ -54,6 +44,15 @@ StepLine FindBestLine(const StepMap& map, const std::vector<float>& score, float
     row += from[map.At(station, row)];
   }
   return line;
+}
+
+double PeakRow(const StepMap& map, int station, int row) {
+  if (row < 1 || row + 1 >= map.rows) return row;
+  const float* height = &map.height[map.At(station, row)];
+  const double before = std::abs(height[-1]), at = std::abs(height[0]), after = std::abs(height[1]);
+  const double bend = before - 2 * at + after;
+  if (bend >= 0 || at < before || at < after) return row;
+  return row + 0.5 * (before - after) / bend;
 }
 
 double ClearShare(const StepMap& map, const StepLine& line) {

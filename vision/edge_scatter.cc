@@ -7,7 +7,6 @@
 #include <numbers>
 #include <string>
 
-#include "vision/blurred_step.h"
 #include "vision/edge_curve.h"
 #include "vision/edge_path.h"
 #include "vision/refused.h"
@@ -109,16 +108,23 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
                   "edge: blurred over " + std::to_string(std::lround(fit.blur_px)) +
                       " px; focus on the blades or hold the camera still");
   }
+  constexpr int kPasses = 3;  // without the worst outliers the next stand out
   const int slices_per_point = std::max(1, static_cast<int>(std::lround(options.step_px)));
   LocatedEdge edge;
   edge.points = Combined(fit, slices_per_point);
   RejectStrays(edge.points);
-  const std::vector<double> scatter = Detrend(edge.points, slices_per_point);
-  const double excess = ExcessOf(scatter);
+  std::vector<double> scatter;
+  double excess = 1;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    scatter = Detrend(edge.points, slices_per_point);
+    excess = ExcessOf(scatter);
+    for (size_t i = 0; i < scatter.size(); ++i) {
+      edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
+    }
+  }
   std::vector<double> inlying;
   for (size_t i = 0; i < scatter.size(); ++i) {
     edge.points[i].sigma_px *= excess;
-    edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
     if (edge.points[i].inlier) inlying.push_back(scatter[i]);
   }
   edge.correlation_px = PointsPerIndependentOne(inlying) * slices_per_point;
@@ -126,26 +132,6 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
   edge.noise =
       std::sqrt(0.5 * (fit.noise_blade * fit.noise_blade + fit.noise_ground * fit.noise_ground));
   return edge;
-}
-
-double ToneSigma(const EdgeFit& fit, const ToneCurve& tone) {
-  constexpr double kUsualGamma = 2.2, kDarkest = 0.004;  // one grey level of sRGB
-  std::vector<double> shifts;
-  const double exponent = 1 + tone.gamma_sigma / kUsualGamma;
-  constexpr size_t kStride = 16;  // the levels change slowly
-  for (size_t i = 0; i < fit.slices.size(); i += kStride) {
-    const EdgeSlice& slice = fit.slices[i];
-    const double ground = std::clamp(slice.ground, kDarkest, 1.0),
-                 blade = std::clamp(slice.ground - slice.contrast, kDarkest, 1.0);
-    // Light that is taken for half-way between the two levels when the exponent is off by one
-    // sigma.
-    const double half =
-        std::pow(0.5 * (std::pow(ground, exponent) + std::pow(blade, exponent)), 1 / exponent);
-    const double slope =
-        std::abs(ground - blade) / std::sqrt(2 * std::numbers::pi * TotalBlurVariance(fit.blur_px));
-    shifts.push_back((half - 0.5 * (ground + blade)) / std::max(slope, 1e-3));
-  }
-  return MedianAbsolute(std::move(shifts));
 }
 
 }  // namespace bladecurve

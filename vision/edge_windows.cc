@@ -37,10 +37,13 @@ void EdgeWindows::Add(int sample, const LevelVector& terms, double light, double
 void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
   constexpr double kUsual = 2.5;  // times the median: what texture does
   if (chi_square.empty()) return;
-  const double usual = kUsual * Median(chi_square);
+  const double usual = std::max(kUsual * Median(chi_square), 1e-12);
+  const size_t last = chi_square.size() - 1;
   for (size_t s = 0; s < trust_.size(); ++s) {
-    const double excess =
-        chi_square[s * chi_square.size() / trust_.size()] / std::max(usual, 1e-12);
+    // The neighbours count too: a glint rarely ends where a stretch does.
+    const size_t k = s * chi_square.size() / trust_.size();
+    const double worst = std::max({chi_square[k > 0 ? k - 1 : 0], chi_square[k], chi_square[std::min(k + 1, last)]});
+    const double excess = worst / usual;
     trust_[s] = excess > 1 ? 1 / (excess * excess) : 1;
   }
 }

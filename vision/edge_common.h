@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/edge_choice.h"
+#include "vision/edge_fit.h"
+#include "vision/tone_curve.h"
+
+namespace bladecurve {
+
+// Standard uncertainty, px, of an offset that all points of an edge share and no amount of pixels
+// reduces: a tone curve that is not known, overexposure, another transition that might be the border.
+[[nodiscard]] double CommonSigma(const EdgeFit& fit,
+                                 const ToneCurve& tone,
+                                 const ChosenTransition& chosen);
+
+}  // namespace bladecurve
