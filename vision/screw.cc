@@ -116,7 +116,7 @@ class Octave {
   [[nodiscard]] std::optional<Found> Judge(const RimEllipse& start_px) const {
     const RimEllipse start = start_px.Into(fine_.origin, fine_.scale);
     const double radius = start.MeanRadius();
-    const RimFitOptions options{std::max(2.5, 0.2 * radius), std::max(2.0, 0.12 * radius)};
+    const RimFitOptions options{std::max(2.5, 0.2 * radius), std::max(1.5, 0.12 * radius)};
     std::optional<RimFit> fit = FitRim(fine_.grey, start, options);
     if (!fit) return std::nullopt;
     const double judged_radius = fit->rim.MeanRadius();

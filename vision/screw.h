@@ -14,19 +14,20 @@ namespace bladecurve {
 struct Screw {
   Eigen::Vector2d center_px;
   Eigen::Matrix2d covariance_px2;  // of the centre of what is seen of the rim
-  double semi_major_px = 0, semi_minor_px = 0,
-         angle_rad = 0;  // angle of the major axis, from +x towards +y (down)
+  double semi_major_px = 0, semi_minor_px = 0;
+  double angle_rad = 0;  // of the major axis, from +x towards +y (down)
   double support = 0;    // share of the rim that is seen, 0 to 1
-  double evidence =
-      0;  // natural logarithm of the odds against chance; at least ScrewSearch::least_evidence
+  double evidence = 0;   // ln of the odds against chance, at least ScrewSearch::least_evidence
 };
 
 struct ScrewSearch {
   Eigen::Vector2d guess_px;     // where geometry puts the pivot
-  double radius_px = 0;         // how far from there the centre may lie
+  double radius_px = 0;         // how far from there the centre may lie; time grows as its square
   double min_semi_axis_px = 3;  // size of the head, from the width of the shank
   double max_semi_axis_px = 0;
-  double least_evidence = 10;  // below: brushed metal, cloth and lettering reach it by chance
+  // Below, nothing is returned: shank edges, grain, cloth and lettering reach 5 by chance. Blade
+  // tips, which are round, reach 13; they must not be within the radius.
+  double least_evidence = 7;
 };
 
 // The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with

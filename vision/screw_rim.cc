@@ -25,6 +25,7 @@ constexpr double kTukeySigmas = 4.0;        // beyond: something else than the r
 constexpr double kLeastScatterPx = 0.02;    // keeps the biweight open on perfect pictures
 constexpr double kLeastCorrelation = 0.2;   // profiles less alike the common one have no weight
 constexpr double kRimCorrelation = 0.6;     // profiles more alike count as rim seen
+constexpr double kRimLeastStrength = 0.1;   // of the median: fainter is noise that happens to fit
 constexpr double kRimRelativeWidth =
     0.06;  // of the radius: how near to the ellipse a rim point must be
 constexpr double kRimLeastWidthPx = 0.5;
@@ -142,7 +143,10 @@ std::optional<CommonShape> FindCommonShape(const Profiles& profiles, const Rows&
     const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, last);
     shape.derivative[k] = (shape.value[after] - shape.value[before]) / (kTapPx * (after - before));
   }
-  const Eigen::VectorXd energy = profiles.window.cwiseProduct(shape.derivative.cwiseAbs2());
+  // The slope taken out of the profiles is put back: most taps lie on level ground.
+  const double level = Median({shape.derivative.data(), shape.derivative.data() + last + 1});
+  const Eigen::VectorXd energy =
+      profiles.window.array() * (shape.derivative.array() - level).square();
   shape.center_px = energy.dot(profiles.t) / energy.sum();
   return shape;
 }
@@ -151,6 +155,7 @@ struct Match {
   double shift_px = 0;     // of the rim from the ellipse, along the normal
   double amplitude = 0;    // of the common shape; negative where light and dark are exchanged
   double correlation = 0;  // with the common shape, after smoothing along the rim
+  double strength = 0;     // amplitude after that smoothing
 };
 
 // Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
@@ -186,6 +191,7 @@ std::vector<Match> MatchProfiles(const Profiles& profiles,
     Match& match = matches[static_cast<std::size_t>(i)];
     const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * kernel_sum;
     match.correlation = smooth.dot(windowed_shape) / norm;
+    match.strength = smooth.dot(windowed_shape) / kernel_sum;
     match.amplitude = solution(i, 2);
     const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
     match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
@@ -284,8 +290,12 @@ void RateSupport(const std::vector<Match>& matches,
   const double width = std::max(kRimRelativeWidth * radius, kRimLeastWidthPx);
   const std::size_t count = matches.size(), third = count / 3;
   std::vector<int> seen(count);
+  std::vector<double> strengths(count);
+  for (std::size_t i = 0; i < count; ++i) strengths[i] = std::abs(matches[i].strength);
+  const double faint = kRimLeastStrength * Median(strengths);
   for (std::size_t i = 0; i < count; ++i) {
-    seen[i] = matches[i].correlation > kRimCorrelation && std::abs(update.residual_px[i]) < width;
+    seen[i] = matches[i].correlation > kRimCorrelation && matches[i].strength > faint &&
+              std::abs(update.residual_px[i]) < width;
   }
   int in_third =
       std::accumulate(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(third), 0);

@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/screw.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "vision/screw_images.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// A head of the given radius somewhere near the middle, up to 30 degrees from being seen from
+// above.
+HeadSpec RandomHead(double radius, std::uint32_t seed) {
+  Draws draws(seed);
+  HeadSpec head;
+  head.seed = seed;
+  head.side_px = 6 * static_cast<int>(radius) + 21;
+  head.center_px =
+      Vector2d::Constant(head.side_px / 2.0) + Vector2d(draws.Uniform(-1, 1), draws.Uniform(-1, 1));
+  head.semi_major_px = radius;
+  head.semi_minor_px = radius * draws.Uniform(0.87, 1);
+  head.angle_rad = draws.Uniform(0, std::numbers::pi);
+  head.slot_angle_rad = draws.Uniform(0, std::numbers::pi);
+  return head;
+}
+
+ScrewSearch SearchAround(const Vector2d& guess, double radius) {
+  ScrewSearch search;
+  search.guess_px = guess;
+  search.radius_px = 1.5 * radius;
+  search.min_semi_axis_px = 0.45 * radius;
+  search.max_semi_axis_px = 1.9 * radius;
+  return search;
+}
+
+// From a guess that is off by up to 1.4 radii.
+std::optional<Screw> Find(const cv::Mat& grey, const HeadSpec& head) {
+  Draws draws(head.seed + 1000);
+  const double direction = draws.Uniform(0, 2 * std::numbers::pi);
+  const double off = 1.4 * head.semi_major_px * std::sqrt(draws.Uniform());
+  const Vector2d guess = head.center_px + off * Vector2d(std::cos(direction), std::sin(direction));
+  return FindScrew(grey, SrgbToneCurve(), SearchAround(guess, head.semi_major_px));
+}
+
+enum class Look { kDisc, kGroove, kRing, kSlotted };
+
+HeadSpec Dressed(HeadSpec head, Look look) {
+  switch (look) {
+    case Look::kDisc:
+      head.disc = 0.2;
+      break;
+    case Look::kGroove:
+      head.groove = -0.2;
+      break;
+    case Look::kRing:
+      head.groove = 0.3;
+      break;
+    case Look::kSlotted:
+      head.disc = -0.15;
+      head.slot = -0.12;
+      break;
+  }
+  return head;
+}
+
+constexpr Look kLooks[] = {Look::kDisc, Look::kGroove, Look::kRing, Look::kSlotted};
+
+TEST(FindScrew, CenterOfCleanHeadsIsWithinThreeHundredthsOfAPixel) {
+  for (const Look look : kLooks) {
+    for (const double radius : {15.0, 30.0, 60.0}) {
+      constexpr int kDraws = 16;
+      double sum = 0;
+      for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
+        const HeadSpec head = Dressed(RandomHead(radius, seed), look);
+        const std::optional<Screw> screw = Find(RenderHead(head), head);
+        ASSERT_TRUE(screw) << "look " << static_cast<int>(look) << " radius " << radius << " seed "
+                           << seed;
+        sum += (screw->center_px - head.center_px).squaredNorm() / 2;
+      }
+      EXPECT_LE(std::sqrt(sum / kDraws), 0.03)
+          << "rms of a coordinate; look " << static_cast<int>(look) << " radius " << radius;
+    }
+  }
+}
+
+TEST(FindScrew, SmallHeadsAreFoundOrLeftAlone) {
+  int found = 0, seen = 0;
+  for (const double radius : {5.0, 7.0, 9.0}) {
+    for (std::uint32_t seed = 1; seed <= 12; ++seed, ++seen) {
+      const HeadSpec head = Dressed(RandomHead(radius, seed), Look::kGroove);
+      const std::optional<Screw> screw = Find(RenderHead(head), head);
+      if (!screw) continue;
+      ++found;
+      EXPECT_LT((screw->center_px - head.center_px).norm(), 0.3)
+          << "radius " << radius << " seed " << seed;
+    }
+  }
+  EXPECT_GE(found, seen * 8 / 10);
+}
+
+// chi^2 of two coordinates has mean 2; over 120 draws its mean scatters by 0.18, and the covariance
+// of each is estimated from two dozen blocks only, so it is meant to be a little wide.
+TEST(FindScrew, CovarianceMatchesTheScatterOverManyPictures) {
+  constexpr int kDraws = 120;
+  double sum = 0;
+  int inside = 0;
+  for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
+    const HeadSpec head = Dressed(RandomHead(18 + seed % 12, seed), kLooks[seed % 3]);
+    const std::optional<Screw> screw = Find(RenderHead(head), head);
+    ASSERT_TRUE(screw) << "seed " << seed;
+    const Vector2d error = screw->center_px - head.center_px;
+    const double chi2 = error.dot(screw->covariance_px2.inverse() * error);
+    sum += chi2;
+    if (chi2 < 5.991) ++inside;  // 95 %
+  }
+  EXPECT_LT(sum / kDraws, 2.6);
+  EXPECT_GT(sum / kDraws, 1.2);
+  EXPECT_GE(inside, kDraws * 90 / 100);
+}
+
+TEST(FindScrew, SizeAndDirectionOfTheEllipseAreThoseOfTheHead) {
+  HeadSpec head = RandomHead(30, 4);
+  head.disc = 0.2;
+  head.semi_minor_px = 26;
+  head.angle_rad = 0.5;
+  const std::optional<Screw> screw = Find(RenderHead(head), head);
+  ASSERT_TRUE(screw);
+  EXPECT_NEAR(screw->semi_major_px, 30, 0.15);
+  EXPECT_NEAR(screw->semi_minor_px, 26, 0.15);
+  EXPECT_NEAR(screw->angle_rad, 0.5, 0.02);
+  EXPECT_GT(screw->support, 0.9);
+}
+
+// Interpolation and the order of the search differ, the rim does not.
+TEST(FindScrew, TurningOrMirroringThePictureDoesTheSameToTheCenter) {
+  for (const Look look : kLooks) {
+    const HeadSpec head = Dressed(RandomHead(20, 11), look);
+    const cv::Mat grey = RenderHead(head);
+    const ScrewSearch search = SearchAround(head.center_px + Vector2d(6, -4), 20);
+    const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+    ASSERT_TRUE(screw);
+    cv::Mat turned, mirrored;
+    cv::rotate(grey, turned, cv::ROTATE_90_CLOCKWISE);  // (x, y) -> (rows - 1 - y, x)
+    cv::flip(grey, mirrored, 1);
+    const auto turn = [&](const Vector2d& p) { return Vector2d(grey.rows - 1 - p.y(), p.x()); };
+    const auto mirror = [&](const Vector2d& p) { return Vector2d(grey.cols - 1 - p.x(), p.y()); };
+    ScrewSearch turned_search = search, mirrored_search = search;
+    turned_search.guess_px = turn(search.guess_px);
+    mirrored_search.guess_px = mirror(search.guess_px);
+    const std::optional<Screw> a = FindScrew(turned, SrgbToneCurve(), turned_search);
+    const std::optional<Screw> b = FindScrew(mirrored, SrgbToneCurve(), mirrored_search);
+    ASSERT_TRUE(a && b);
+    EXPECT_LT((a->center_px - turn(screw->center_px)).norm(), 0.02);
+    EXPECT_LT((b->center_px - mirror(screw->center_px)).norm(), 0.02);
+  }
+}
+
+TEST(FindScrew, GuessDoesNotMoveTheCenter) {
+  const HeadSpec head = Dressed(RandomHead(20, 3), Look::kSlotted);
+  const cv::Mat grey = RenderHead(head);
+  const std::optional<Screw> first =
+      FindScrew(grey, SrgbToneCurve(), SearchAround(head.center_px, 20));
+  ASSERT_TRUE(first);
+  for (const Vector2d& off : {Vector2d(15, 0), Vector2d(0, -20), Vector2d(-12, 14)}) {
+    const std::optional<Screw> other =
+        FindScrew(grey, SrgbToneCurve(), SearchAround(head.center_px + off, 20));
+    ASSERT_TRUE(other);
+    EXPECT_LT((other->center_px - first->center_px).norm(), 0.01);
+  }
+}
+
+TEST(FindScrew, SameInputGivesTheSameBits) {
+  const HeadSpec head = Dressed(RandomHead(20, 5), Look::kGroove);
+  const cv::Mat grey = RenderHead(head);
+  const std::optional<Screw> a = Find(grey, head), b = Find(grey, head);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->center_px, b->center_px);
+  EXPECT_EQ(a->covariance_px2, b->covariance_px2);
+}
+
+// Pictures of things found at a crossing that are no screw, 12 draws each.
+cv::Mat Bars(std::uint32_t seed, int side) {
+  Draws draws(seed);
+  cv::Mat light(side, side, CV_8UC1, cv::Scalar(90));
+  for (int bar = 0; bar < 2; ++bar) {
+    const double angle = draws.Uniform(0, std::numbers::pi), half = draws.Uniform(0.12, 0.2) * side;
+    const Vector2d along(std::cos(angle), std::sin(angle)), across(-along.y(), along.x());
+    const Vector2d middle =
+        Vector2d::Constant(side / 2.0) + Vector2d(draws.Uniform(-8, 8), draws.Uniform(-8, 8));
+    std::vector<cv::Point> corners;
+    for (const Vector2d& p : {Vector2d(middle + side * along + half * across),
+                              Vector2d(middle + side * along - half * across),
+                              Vector2d(middle - side * along - half * across),
+                              Vector2d(middle - side * along + half * across)}) {
+      corners.emplace_back(static_cast<int>(p.x()), static_cast<int>(p.y()));
+    }
+    cv::fillConvexPoly(light, corners, cv::Scalar(150 + 40 * bar), cv::LINE_AA);
+  }
+  cv::GaussianBlur(light, light, cv::Size(5, 5), 1.0);
+  cv::Mat noise(side, side, CV_8SC1);
+  for (auto value = noise.begin<signed char>(); value != noise.end<signed char>(); ++value) {
+    *value = static_cast<signed char>(std::lround(2 * draws.Normal()));
+  }
+  cv::add(light, noise, light, cv::noArray(), CV_8U);
+  return light;
+}
+
+int CountFound(const std::vector<cv::Mat>& pictures, double radius) {
+  int found = 0;
+  for (const cv::Mat& grey : pictures) {
+    const Vector2d middle(grey.cols / 2.0, grey.rows / 2.0);
+    if (FindScrew(grey, SrgbToneCurve(), SearchAround(middle, radius))) ++found;
+  }
+  return found;
+}
+
+TEST(FindScrew, SeesNoScrewWhereThereIsNone) {
+  constexpr std::uint32_t kDraws = 12;
+  for (const double radius : {8.0, 20.0, 40.0}) {
+    std::vector<cv::Mat> noise, brushed, bars;
+    for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
+      HeadSpec plate = RandomHead(radius, seed);
+      noise.push_back(RenderHead(plate));
+      plate.brushed = 0.1;
+      brushed.push_back(RenderHead(plate));
+      bars.push_back(Bars(seed, 8 * static_cast<int>(radius)));
+    }
+    EXPECT_EQ(CountFound(noise, radius), 0) << "noise, radius " << radius;
+    EXPECT_EQ(CountFound(brushed, radius), 0) << "brushed plate, radius " << radius;
+    EXPECT_EQ(CountFound(bars, radius), 0) << "crossing bars, radius " << radius;
+  }
+}
+
+// A rounded tip is a rim on one side only.
+TEST(FindScrew, ARoundTipIsNoScrew) {
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    HeadSpec head = RandomHead(20, seed);
+    head.disc = 0.25;
+    head.semi_minor_px = 20;
+    cv::Mat grey = RenderHead(head);
+    const int x = static_cast<int>(head.center_px.x());
+    for (int column = x + 1; column < grey.cols; ++column) grey.col(x).copyTo(grey.col(column));
+    EXPECT_FALSE(Find(grey, head)) << "seed " << seed;
+  }
+}
+
+TEST(FindScrew, HardlyVisibleHeadsAreLeftAlone) {
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    HeadSpec head = RandomHead(20, seed);
+    head.disc = 0.002;  // a quarter of the noise
+    const std::optional<Screw> screw = Find(RenderHead(head), head);
+    EXPECT_FALSE(screw && (screw->center_px - head.center_px).norm() > 1) << "seed " << seed;
+  }
+}
+
+TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {
+  const ToneCurve tone = SrgbToneCurve();
+  const cv::Mat tiny(1, 1, CV_8UC1, cv::Scalar(7)), flat(50, 300, CV_8UC1, cv::Scalar(255));
+  EXPECT_FALSE(FindScrew(tiny, tone, SearchAround({0, 0}, 10)));
+  EXPECT_FALSE(FindScrew(flat, tone, SearchAround({0, 49}, 10)));
+  EXPECT_FALSE(FindScrew(flat, tone, SearchAround({150, 25}, 60)));
+  EXPECT_FALSE(FindScrew(flat, tone, SearchAround({-200, 900}, 10)));  // outside
+}
+
+TEST(FindScrew, AHeadAtTheBorderOfThePictureIsFound) {
+  const HeadSpec head = Dressed(RandomHead(15, 2), Look::kDisc);
+  const cv::Mat grey = RenderHead(head);
+  const cv::Rect tight(
+      static_cast<int>(head.center_px.x()) - 18, static_cast<int>(head.center_px.y()) - 18, 37, 37);
+  const Vector2d corner(tight.x, tight.y);
+  const std::optional<Screw> screw =
+      FindScrew(grey(tight).clone(), SrgbToneCurve(), SearchAround(head.center_px - corner, 15));
+  ASSERT_TRUE(screw);
+  EXPECT_LT((screw->center_px + corner - head.center_px).norm(), 0.15);
+}
+
+TEST(FindScrew, ImpossibleSearchesAreNamed) {
+  const ToneCurve tone = SrgbToneCurve();
+  const cv::Mat grey(50, 50, CV_8UC1, cv::Scalar(0)), colour(50, 50, CV_8UC3);
+  const ScrewSearch good = SearchAround({25, 25}, 8);
+  EXPECT_THROW((void)FindScrew(colour, tone, good), std::invalid_argument);
+  EXPECT_THROW((void)FindScrew(cv::Mat(), tone, good), std::invalid_argument);
+  for (double ScrewSearch::*field :
+       {&ScrewSearch::radius_px, &ScrewSearch::min_semi_axis_px, &ScrewSearch::max_semi_axis_px}) {
+    for (const double value : {-1.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+      ScrewSearch bad = good;
+      bad.*field = value;
+      EXPECT_THROW((void)FindScrew(grey, tone, bad), std::invalid_argument) << value;
+    }
+  }
+  ScrewSearch nowhere = good;
+  nowhere.guess_px.x() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW((void)FindScrew(grey, tone, nowhere), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bladecurve
