@@ -46,8 +46,8 @@ double ToneSigma(const std::vector<Levels>& levels, double blur_px, double gamma
   return MedianAbsolute(std::move(shifts));
 }
 
-// Where one side is overexposed its true light is unknown, and the edge creeps towards the other side:
-// by 0.7 of the blur where a blade is four times too bright.
+// Where one side is overexposed its true light is unknown, and the edge creeps towards the other
+// side: by 0.7 of the blur where a blade is four times too bright.
 double BloomSigma(const std::vector<Levels>& levels, double blur_px) {
   constexpr double kOverexposed = 0.96, kPerBlur = 0.5;
   double overexposed = 0;

@@ -90,6 +90,8 @@ class Fitter {
     if (!options_.model_slopes) {
       precision[kBladeSlope] = precision[kGroundSlope] = precision[kGroundBend] = kFixed;
     }
+    if (stride == kSketchStride)
+      precision[kGroundBend] = kFixed;  // it could take the place of the edge itself
     windows_.Solve(precision);
     if (options_.model_slopes) windows_.Solve(precision + windows_.SupportedSlopes());
   }
@@ -164,7 +166,8 @@ class Fitter {
     misfit_ = std::move(misfit);
   }
 
-  // The inner transition's distance was read off a coarse grid, where the two push each other apart.
+  // The inner transition's distance was read off a coarse grid, where the two push each other
+  // apart.
   void MoveFace() {
     constexpr double kMost = 0.5;              // px a round
     constexpr double kPriorInformation = 100;  // 1/px^2
@@ -172,7 +175,8 @@ class Fitter {
     for (const LevelFit& window : windows_.fits()) {
       const double height = window.levels[kFace];
       steps.emplace_back(window.levels[kFaceShift] / (height == 0 ? 1.0 : height),
-                         height * height / window.variances[kFaceShift] / std::max(window.chi_square_per_pixel, 1.0));
+                         height * height / window.variances[kFaceShift] /
+                             std::max(window.chi_square_per_pixel, 1.0));
     }
     const double outwards = std::clamp(WeightedMedian(std::move(steps)), -kMost, kMost);
     face_moved_px_ += outwards;
@@ -212,7 +216,7 @@ class Fitter {
   [[nodiscard]] std::vector<double> Step() const {
     constexpr double kMostStep =
         1.5;  // px a round; beyond, the expansion to first order means nothing
-    constexpr double kMostMove = 2.5;    // px in all; further off lies another transition
+    constexpr double kMostMove = 1.6;    // px in all; further off lies another transition
     constexpr double kStartSigma = 1;    // px; where nothing is seen the edge stays where it was
     constexpr double kBendSigma = 0.05;  // px; what a blade bends from one window to the next
     constexpr double kStartInformation = 1 / (kStartSigma * kStartSigma);
@@ -281,7 +285,7 @@ class Fitter {
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
-  double face_moved_px_ = 0;      // the blade's inner transition, towards the edge
+  double face_moved_px_ = 0;                    // the blade's inner transition, towards the edge
   std::vector<double> inner_px_;                // to the blade's inner transition, one per sample
   std::vector<PreparedPixel> prepared_, kept_;  // of one sample; of all in the last round
   EdgeWindows windows_{0};

@@ -69,9 +69,11 @@ class Place {
   }
 
   // Variance of its width in rows^2, pixels and filter included, as of a Gaussian: soft shadows are
-  // wide.
+  // wide. A peak is judged on its steeper side, for a shadow may begin on the other, but not where
+  // another step overlaps; off a peak the other side tells that it belongs to something wide.
   [[nodiscard]] double Variance() const {
-    const double flank = 0.5 * (std::max(Height(-kFlank), 0.0) + std::max(Height(kFlank), 0.0));
+    const auto [low, high] = std::minmax({Height(-kFlank), Height(kFlank)});
+    const double flank = IsPeak() && low > 0 ? low : high;
     const double share = std::clamp(flank / std::max(Height(), 1e-12), 1e-6, 0.98);
     return 0.5 * kFlank * kFlank / -std::log(share);
   }

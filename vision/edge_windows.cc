@@ -42,7 +42,8 @@ void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
   for (size_t s = 0; s < trust_.size(); ++s) {
     // The neighbours count too: a glint rarely ends where a stretch does.
     const size_t k = s * chi_square.size() / trust_.size();
-    const double worst = std::max({chi_square[k > 0 ? k - 1 : 0], chi_square[k], chi_square[std::min(k + 1, last)]});
+    const double worst =
+        std::max({chi_square[k > 0 ? k - 1 : 0], chi_square[k], chi_square[std::min(k + 1, last)]});
     const double excess = worst / usual;
     trust_[s] = excess > 1 ? 1 / (excess * excess) : 1;
   }
