@@ -52,9 +52,11 @@ struct PoseObservations {
   bool operator()(const T* reach, const T* zero, const T* pose, T* residuals) const {
     Eigen::Map<Eigen::Matrix<T, 8, 1>> r(residuals);
     const Vector2<T> pivot(pose[kPivotX], pose[kPivotY]);
-    r.template segment<2>(0) = photo.pivot_whitener.cast<T>() * pivot;
-    r.template segment<2>(2) = UpperEnd(*reach, *zero, pose);
-    r(4) = LowerEnd(*zero, pose);
+    const T grown =
+        T(1) + pose[kScale];  // distances in the photograph's own lengths, as its sigmas
+    r.template segment<2>(0) = photo.pivot_whitener.cast<T>() * pivot / grown;
+    r.template segment<2>(2) = UpperEnd(*reach, *zero, pose) / grown;
+    r(4) = LowerEnd(*zero, pose) / grown;
     r(5) = Theta(*zero, pose);
     r(6) = photo.scale_weight * pose[kScale];
     r(7) = photo.offset_weight * pose[kOffset];
@@ -89,10 +91,10 @@ struct TaperedEdges {
     const T c = cos(axis), s = sin(axis);
     // x = c zx + s zy, y = side (c zy - s zx), z = (1 + scale) point - pivot
     const T zx = g * (-side * s - slope * c), zy = g * (side * c - slope * s);
+    // In the photograph's own lengths, in which its sigmas stand; else a smaller scale alone would
+    // fit better.
     const T grown = T(1) + pose[kScale];
-    return {zx * grown,
-            zy * grown,
-            -zx * pose[kPivotX] - zy * pose[kPivotY] - g * ab[0] + pose[kOffset]};
+    return {zx, zy, (-zx * pose[kPivotX] - zy * pose[kPivotY] - g * ab[0] + pose[kOffset]) / grown};
   }
 
   template <typename T>
