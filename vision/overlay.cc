@@ -130,8 +130,12 @@ void DrawPivot(View& view, const Overlay& overlay, double text) {
                    2 * overlay.pivot_sigma_px * Vector2d(std::cos(angle), std::sin(angle)));
   }
   DrawPath(view, ring, kFrameColour, 1);
-  const Vector2d at = view.ViewFromPhoto(overlay.pivot_px) + Vector2d(1.2 * text, 2.6 * text);
-  DrawText(view, Text("pivot +- %.2g px", overlay.pivot_sigma_px, 0), at, text, kFrameColour);
+  // Behind the pivot, between the shanks, where nothing is measured.
+  const std::string label = Text("pivot +- %.2g px", overlay.pivot_sigma_px, 0);
+  Vector2d at = view.ViewFromPhoto(back - 0.03 * ReachPx(overlay) * overlay.axis_px);
+  at.x() -= 0.5 * (1 + overlay.axis_px.x()) * TextWidth(label, text);
+  at.y() += 0.5 * text;
+  DrawText(view, label, at, text, kFrameColour);
 }
 
 void DrawEdges(View& view, const Overlay& overlay) {
