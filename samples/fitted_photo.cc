@@ -26,9 +26,12 @@ FittedPhoto ApplyPose(const PhotoMeasurement& photo, const FittedPose& pose) {
                    std::sin(pose.axis_rad) * UpwardsFrom(photo.axis_px);
   fitted.theta_rad = pose.theta_rad;
   fitted.theta_sigma_rad = pose.theta_sigma_rad;
-  fitted.mm_per_px = photo.mm_per_px * (1 + pose.scale_relative);
+  // A scale that was given exactly stays as it was typed, whatever the solver's last digits.
+  const bool exact = photo.edges.scale_relative_sigma == 0;
+  const double grown = exact ? 1 : 1 + pose.scale_relative;
+  fitted.mm_per_px = photo.mm_per_px * grown;
   const Eigen::Matrix2d blade_from_edges =
-      (1 + pose.scale_relative) * Eigen::Rotation2Dd(-pose.axis_rad).toRotationMatrix();
+      grown * Eigen::Rotation2Dd(-pose.axis_rad).toRotationMatrix();
   fitted.upper_edge_mm.reserve(photo.upper_edge_mm.size());
   for (const Vector2d& point_mm : photo.upper_edge_mm) {
     fitted.upper_edge_mm.push_back(blade_from_edges * (point_mm - pose.pivot_mm));
