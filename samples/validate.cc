@@ -17,6 +17,7 @@
 #include "samples/commands.h"
 #include "samples/output_files.h"
 #include "samples/parallel.h"
+#include "samples/validate_blade.h"
 #include "samples/validation_plot.h"
 #include "samples/validation_run.h"
 #include "samples/validation_scene.h"
@@ -31,7 +32,7 @@ struct ValidateCommand {
   int scenes = 50;
   std::uint64_t seed = 1;
   Difficulty difficulty = Difficulty::kStandard;
-  std::string csv, plot;
+  std::string blade, csv, plot;
   int threads = 1;
   bool quiet = false, no_times = false;
 };
@@ -79,6 +80,10 @@ std::vector<ValidationRow> RunScenes(const ValidateCommand& command) {
 }
 
 int RunValidate(const ValidateCommand& command) {
+  if (!command.blade.empty()) {
+    std::cout << CompareBladeWithPhotographs(command.blade);
+    return kExitOk;
+  }
   const std::vector<ValidationRow> rows = RunScenes(command);
   if (command.csv == "-") {
     std::cout << ValidationCsv(rows, !command.no_times);
@@ -96,6 +101,9 @@ void AddValidate(CLI::App& app, int* exit_code) {
   const auto command = std::make_shared<ValidateCommand>();
   CLI::App* sub = app.add_subcommand(
       "validate", "Render photographs with known truth, measure them, and compare");
+  sub->add_option("BLADE",
+                  command->blade,
+                  "Draw this .blade.json into its own photographs instead, and compare");
   sub->add_option("--scenes", command->scenes, "How many; every tenth one must be refused")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
