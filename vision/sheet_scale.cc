@@ -94,18 +94,34 @@ struct Solved {
   SheetSolution solution;
 };
 
-// Tone curve from the markers' sides, then the sheet, then both once more with the lens just found:
-// it bends the sides. The picture is read anew only where one of them matters.
+// False where locating the corners anew for this lens would move them by less than a few
+// thousandths of a pixel.
+bool LensBendsSides(const std::vector<SeenMarker>& markers, const Camera& camera) {
+  constexpr double kMattersPx = 0.003;
+  for (const SeenMarker& marker : markers) {
+    for (int side = 0; side < 4; ++side) {
+      if (std::abs(MarkerSide(marker.corners_px, side, {1, camera}).bow_px) > kMattersPx)
+        return true;
+    }
+  }
+  return false;
+}
+
+// Tone curve from the markers' sides, then the sheet, then both once more with the lens just found,
+// which bends the sides. Corners are located anew only where curve or lens matters.
 Solved Solve(const Photo& photo, std::vector<SeenMarker> markers, const ProblemFrom& problem) {
   const cv::Mat& grey = photo.grey();
-  Solved solved;
-  solved.result.tone = MeasureToneCurve(grey, markers);
-  if (solved.result.tone.measured) {
-    markers = RelocateMarkers(grey, solved.result.tone, markers, std::nullopt);
+  const ToneCurve tone = MeasureToneCurve(grey, markers);
+  if (tone.linear != SrgbToneCurve().linear)
+    markers = RelocateMarkers(grey, tone, markers, std::nullopt);
+  SheetSolution solution = SolveSheet(problem(markers));
+  if (LensBendsSides(markers, solution.pose.camera)) {
+    markers = RelocateMarkers(grey, tone, markers, solution.pose.camera);
+    solution = SolveSheet(problem(markers));
   }
-  const SheetSolution straight = SolveSheet(problem(markers));
-  solved.result.markers = RelocateMarkers(grey, solved.result.tone, markers, straight.pose.camera);
-  solved.solution = SolveSheet(problem(solved.result.markers));
+  Solved solved{{}, std::move(solution)};
+  solved.result.tone = tone;
+  solved.result.markers = std::move(markers);
   return solved;
 }
 

@@ -57,64 +57,75 @@ std::optional<Profile> MeasureProfile(const cv::Mat& grey,
   return sum;
 }
 
-double Interpolated(const ToneCurve& tone, double stored) {
-  const size_t low = static_cast<size_t>(std::clamp(stored, 0.0, 254.0));
-  const double part = stored - static_cast<double>(low);
-  return (1 - part) * tone.linear[low] + part * tone.linear[low + 1];
-}
+// A place of the profile in linear light, 0 to 1 between its ends, and what one stored grey value
+// is there.
+struct Light {
+  double level, per_grey;
+};
 
-// The profile in linear light, from 0 to 1 between its ends.
-Profile Normalised(const Profile& profile, const ToneCurve& tone) {
+std::vector<Light> Normalised(const Profile& profile, const ToneCurve& tone) {
   constexpr size_t kEnd = 4;  // one pixel of level ground on each side
-  Profile light;
-  for (const double stored : profile) light.push_back(Interpolated(tone, stored));
+  std::vector<Light> light;
+  for (const double stored : profile) {
+    const size_t low = static_cast<size_t>(std::clamp(stored, 0.0, 254.0));
+    const double slope = tone.linear[low + 1] - tone.linear[low];
+    light.push_back({tone.linear[low] + (stored - static_cast<double>(low)) * slope, slope});
+  }
   double dark = 0, bright = 0;
   for (size_t k = 0; k < kEnd; ++k) {
-    dark += light[k] / kEnd;
-    bright += light[light.size() - 1 - k] / kEnd;
+    dark += light[k].level / kEnd;
+    bright += light[light.size() - 1 - k].level / kEnd;
   }
-  for (double& value : light) value = (value - dark) / (bright - dark);
+  for (Light& place : light) {
+    place.level = (place.level - dark) / (bright - dark);
+    place.per_grey /= bright - dark;
+  }
   return light;
 }
 
-double At(const Profile& profile, double place) {
+Light At(const std::vector<Light>& profile, double place) {
   const double last = static_cast<double>(profile.size() - 1);
   const double x = std::clamp(place, 0.0, last - 1e-9);
   const size_t k = static_cast<size_t>(x);
-  return profile[k] + (x - static_cast<double>(k)) * (profile[k + 1] - profile[k]);
+  const double part = x - static_cast<double>(k);
+  return {profile[k].level + part * (profile[k + 1].level - profile[k].level),
+          profile[k].per_grey + part * (profile[k + 1].per_grey - profile[k].per_grey)};
 }
 
-// How far the profile is from f(c + d) + f(c - d) = 1: mean square over d, for the best c.
-double Skewness(const Profile& light) {
-  const double middle = 0.5 * static_cast<double>(light.size() - 1);
-  double best = std::numeric_limits<double>::infinity();
-  constexpr double kStep = 0.04;  // of a bin: a hundredth of a pixel
-  for (double c = middle - 4; c <= middle + 4; c += kStep) {
-    const double reach = std::min(c, static_cast<double>(light.size() - 1) - c);
-    double sum = 0, count = 0;
-    for (double d = 0; d <= reach; d += 1) {
-      const double off = At(light, c + d) + At(light, c - d) - 1;
-      sum += off * off;
-      count += 1;
-    }
-    best = std::min(best, sum / count);
+// How far f(c + d) + f(c - d) is from being the same for all d: mean square in units of the noise,
+// which is even in stored grey values. Without those units curves that press the noise together
+// would win, and without solving for the sum curves that spare the noise of the ends.
+double SkewnessAbout(const std::vector<Light>& light, double c) {
+  const double reach = std::min(c, static_cast<double>(light.size() - 1) - c);
+  double count = 0, weights = 0, mean = 0, square = 0;
+  for (double d = 0; d <= reach; d += 1) {
+    const Light above = At(light, c + d), below = At(light, c - d);
+    const double sum = above.level + below.level - 1;
+    const double weight = 1 / (above.per_grey * above.per_grey + below.per_grey * below.per_grey);
+    count += 1;
+    weights += weight;
+    mean += weight * sum;
+    square += weight * sum * sum;
   }
-  return best;
+  return (square - mean * mean / weights) / count;
 }
 
-// The power that makes the profiles least skew, all together; golden section.
-double BestPower(const std::vector<Profile>& profiles) {
+// The least of a function with one minimum near the best of a few places: golden section about
+// that.
+template <typename Function>
+double Minimum(const Function& cost, const std::vector<double>& places, double tolerance) {
   constexpr double kGolden = 0.6180339887498949;
-  const auto cost = [&](double power) {
-    const ToneCurve tone = PowerToneCurve(power);
-    double sum = 0;
-    for (const Profile& profile : profiles) sum += Skewness(Normalised(profile, tone));
-    return sum;
-  };
-  double low = kMinPower, high = kMaxPower;
+  size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (size_t k = 0; k < places.size(); ++k) {
+    const double here = cost(places[k]);
+    if (here < least) least = here, best = k;
+  }
+  double low = places[best == 0 ? 0 : best - 1],
+         high = places[std::min(best + 1, places.size() - 1)];
   double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
   double cost_a = cost(a), cost_b = cost(b);
-  while (high - low > 0.004) {
+  while (high - low > tolerance) {
     if (cost_a < cost_b) {
       high = b, b = a, cost_b = cost_a;
       a = high - kGolden * (high - low), cost_a = cost(a);
@@ -124,6 +135,46 @@ double BestPower(const std::vector<Profile>& profiles) {
     }
   }
   return 0.5 * (low + high);
+}
+
+double Skewness(const std::vector<Light>& light) {
+  // The middle lies within a pixel and a half of where the side was located with the assumed curve.
+  const double middle = 0.5 * static_cast<double>(light.size() - 1);
+  std::vector<double> places;
+  for (int bin = -6; bin <= 6; ++bin) places.push_back(middle + bin);
+  const auto about = [&](double c) { return SkewnessAbout(light, c); };
+  return SkewnessAbout(light, Minimum(about, places, 0.02));
+}
+
+// The power that makes the profiles least skew, all together.
+double BestPower(const std::vector<Profile>& profiles) {
+  const auto cost = [&](double power) {
+    const ToneCurve tone = PowerToneCurve(power);
+    double sum = 0;
+    for (const Profile& profile : profiles) sum += Skewness(Normalised(profile, tone));
+    return sum;
+  };
+  return Minimum(cost, {0.35, 0.45, 0.55, 0.7, 0.85, 1, 1.2, 1.4, 1.7}, 0.004);
+}
+
+struct Power {
+  double value, sigma;
+};
+
+// With its standard uncertainty by leaving out one group of sides after the other (jackknife).
+Power MeasurePower(const std::vector<Profile>& profiles) {
+  constexpr size_t kGroups = 4;
+  double mean = 0, square = 0;
+  for (size_t group = 0; group < kGroups; ++group) {
+    std::vector<Profile> rest;
+    for (size_t i = 0; i < profiles.size(); ++i) {
+      if (i % kGroups != group) rest.push_back(profiles[i]);
+    }
+    const double power = BestPower(rest);
+    mean += power / kGroups;
+    square += power * power / kGroups;
+  }
+  return {BestPower(profiles), std::sqrt((kGroups - 1) * std::max(0.0, square - mean * mean))};
 }
 
 std::vector<Profile> SideProfiles(const cv::Mat& grey, const SeenMarker& marker) {
@@ -161,20 +212,13 @@ ToneCurve MeasureToneCurve(const cv::Mat& grey, const std::vector<SeenMarker>& m
     for (Profile& profile : SideProfiles(grey, marker)) profiles.push_back(std::move(profile));
   }
   if (profiles.size() < kMinSides) return SrgbToneCurve();
-  double mean = 0, square = 0;
-  for (const Profile& profile : profiles) {
-    const double power = BestPower({profile});
-    mean += power;
-    square += power * power;
-  }
-  const double n = static_cast<double>(profiles.size());
-  mean /= n;
-  const double sigma = std::sqrt(std::max(0.0, square / n - mean * mean) / (n - 1));
-  if (sigma > kMaxSigma) return SrgbToneCurve();
-  const double power = BestPower(profiles);
-  ToneCurve tone = std::abs(power - 1) < 2 * sigma ? SrgbToneCurve() : PowerToneCurve(power);
+  const Power power = MeasurePower(profiles);
+  if (power.sigma > kMaxSigma) return SrgbToneCurve();
+  // Nearly all pictures are sRGB: that is kept where the sides do not contradict it.
+  const bool srgb = std::abs(power.value - 1) < 2 * power.sigma;
+  ToneCurve tone = srgb ? SrgbToneCurve() : PowerToneCurve(power.value);
   tone.measured = true;
-  tone.gamma_sigma = kEncodedGamma * sigma;
+  tone.gamma_sigma = kEncodedGamma * power.sigma;
   return tone;
 }
 

@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/photo.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <tiffio.h>
+
+#include <Eigen/LU>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+// jpeglib.h needs FILE and size_t declared before it.
+#include <jpeglib.h>
+
+#include "vision/png_writer.h"
+#include "vision/refused.h"
+#include "vision/sha256.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path Write(const std::string& name, const std::string& bytes) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+// A gradient, so that places can be told apart.
+cv::Mat Gradient(int width, int height) {
+  cv::Mat grey(height, width, CV_8UC1);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x)
+      grey.at<uchar>(y, x) = static_cast<uchar>(10 + (150 * x) / width + (80 * y) / height);
+  }
+  return grey;
+}
+
+struct JpegSettings {
+  J_COLOR_SPACE space = JCS_GRAYSCALE;
+  int channels = 1;
+  int density = 0;  // dots per inch
+  std::string exif;
+};
+
+// Every channel of a pixel gets the grey value.
+std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
+  jpeg_compress_struct info = {};
+  jpeg_error_mgr errors;
+  info.err = jpeg_std_error(&errors);
+  jpeg_create_compress(&info);
+  unsigned char* buffer = nullptr;
+  unsigned long size = 0;
+  jpeg_mem_dest(&info, &buffer, &size);
+  info.image_width = static_cast<JDIMENSION>(grey.cols);
+  info.image_height = static_cast<JDIMENSION>(grey.rows);
+  info.input_components = settings.channels;
+  info.in_color_space = settings.space;
+  jpeg_set_defaults(&info);
+  jpeg_set_quality(&info, 98, TRUE);
+  if (settings.density > 0) {
+    info.density_unit = 1;
+    info.X_density = info.Y_density = static_cast<UINT16>(settings.density);
+  }
+  jpeg_start_compress(&info, TRUE);
+  if (!settings.exif.empty()) {
+    jpeg_write_marker(&info,
+                      JPEG_APP0 + 1,
+                      reinterpret_cast<const JOCTET*>(settings.exif.data()),
+                      static_cast<unsigned>(settings.exif.size()));
+  }
+  std::vector<JSAMPLE> row(static_cast<size_t>(grey.cols * settings.channels));
+  for (int y = 0; y < grey.rows; ++y) {
+    for (size_t i = 0; i < row.size(); ++i)
+      row[i] = grey.at<uchar>(y, static_cast<int>(i) / settings.channels);
+    JSAMPROW pointer = row.data();
+    jpeg_write_scanlines(&info, &pointer, 1);
+  }
+  jpeg_finish_compress(&info);
+  std::string bytes(reinterpret_cast<char*>(buffer), size);
+  jpeg_destroy_compress(&info);
+  std::free(buffer);
+  return bytes;
+}
+
+std::string Short(int value) { return {static_cast<char>(value), static_cast<char>(value >> 8)}; }
+std::string Long(int value) { return Short(value & 0xffff) + Short(value >> 16); }
+
+// Little-endian EXIF with an orientation and a 35 mm equivalent focal length; zero leaves one out.
+std::string Exif(int orientation, int focal_length_35mm) {
+  const std::string header = "II*" + std::string(1, '\0') + Long(8);
+  const std::string turn = Short(0x0112) + Short(3) + Long(1) + Long(orientation);
+  const std::string pointer = Short(0x8769) + Short(4) + Long(1) + Long(8 + 2 + 24 + 4);
+  const std::string focal = Short(0xa405) + Short(3) + Long(1) + Long(focal_length_35mm);
+  return std::string("Exif\0\0", 6) + header + Short(2) + turn + pointer + Long(0) +
+         Short(focal_length_35mm > 0 ? 1 : 0) + (focal_length_35mm > 0 ? focal : "") + Long(0);
+}
+
+struct PngSettings {
+  int colour_type, bit_depth, interlace;
+};
+
+// `row` holds one row of raw samples, written again and again.
+fs::path WriteRawPng(const std::string& name,
+                     cv::Size size,
+                     const PngSettings& settings,
+                     std::vector<png_byte> row) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+  png_infop info = png_create_info_struct(png);
+  png_init_io(png, file);
+  png_set_IHDR(png,
+               info,
+               static_cast<png_uint_32>(size.width),
+               static_cast<png_uint_32>(size.height),
+               settings.bit_depth,
+               settings.colour_type,
+               settings.interlace,
+               PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
+  const png_color palette[2] = {{0, 0, 0}, {255, 255, 255}};
+  if (settings.colour_type == PNG_COLOR_TYPE_PALETTE) png_set_PLTE(png, info, palette, 2);
+  png_write_info(png, info);
+  std::vector<png_bytep> rows(static_cast<size_t>(size.height), row.data());
+  png_write_image(png, rows.data());
+  png_write_end(png, nullptr);
+  png_destroy_write_struct(&png, &info);
+  std::fclose(file);
+  return path;
+}
+
+void ExpectUnreadable(const fs::path& path, const std::string& cause) {
+  try {
+    static_cast<void>(Photo::Load(path));
+    ADD_FAILURE() << path << " was read";
+  } catch (const Refused& refused) {
+    EXPECT_EQ(refused.reason(), Reason::kUnreadable);
+    EXPECT_NE(std::string(refused.what()).find(cause), std::string::npos) << refused.what();
+    EXPECT_NE(std::string(refused.what()).find(path.string()), std::string::npos) << refused.what();
+  }
+}
+
+TEST(PhotoLoad, RefusesWhatIsNoPicture) {
+  ExpectUnreadable("/nonexistent/photo.jpg", "no such file");
+  ExpectUnreadable(testing::TempDir(), "folder");
+  ExpectUnreadable(Write("empty.jpg", ""), "empty");
+  ExpectUnreadable(Write("text.jpg", "This is no photograph.\n"), "no JPEG, PNG, TIFF or HEIC");
+  ExpectUnreadable(Write("header.jpg", "\xff\xd8\xff\xe0"), "");
+}
+
+TEST(PhotoLoad, RefusesTruncatedFilesWhereverTheyEnd) {
+  const std::string jpeg = Jpeg(Gradient(320, 240), {});
+  const fs::path png_path = fs::path(testing::TempDir()) / "whole.png";
+  WritePng(png_path, Gradient(320, 240));
+  std::ifstream stream(png_path, std::ios::binary);
+  const std::string png((std::istreambuf_iterator<char>(stream)), {});
+  for (const double share : {0.05, 0.3, 0.6, 0.95}) {
+    ExpectUnreadable(
+        Write("cut.jpg",
+              jpeg.substr(0, static_cast<size_t>(share * static_cast<double>(jpeg.size())))),
+        "");
+    ExpectUnreadable(
+        Write("cut.png",
+              png.substr(0, static_cast<size_t>(share * static_cast<double>(png.size())))),
+        "");
+  }
+}
+
+TEST(PhotoLoad, RefusesDecompressionBombs) {
+  std::string jpeg = Jpeg(Gradient(16, 16), {});
+  const size_t frame = jpeg.find("\xff\xc0");
+  jpeg.replace(frame + 5, 4, std::string("\xff\0\xff\0", 4));  // 65280 x 65280
+  ExpectUnreadable(Write("bomb.jpg", jpeg), "400 million");
+}
+
+TEST(PhotoLoad, ReadsEverySizeAndKind) {
+  EXPECT_EQ(Photo::Load(Write("one.jpg", Jpeg(Gradient(1, 1), {}))).grey().size(), cv::Size(1, 1));
+  EXPECT_EQ(Photo::Load(Write("wide.jpg", Jpeg(Gradient(20000, 20), {}))).grey().size(),
+            cv::Size(20000, 20));
+  const fs::path deep = WriteRawPng(
+      "deep.png", {2, 2}, {PNG_COLOR_TYPE_GRAY, 16, PNG_INTERLACE_NONE}, {0x7f, 0xff, 0xff, 0xff});
+  EXPECT_EQ(Photo::Load(deep).grey().at<uchar>(1, 0), 127);  // 32767 / 257 = 127.498
+  EXPECT_EQ(Photo::Load(deep).grey().at<uchar>(1, 1), 255);
+  const fs::path palette =
+      WriteRawPng("palette.png", {8, 3}, {PNG_COLOR_TYPE_PALETTE, 1, PNG_INTERLACE_NONE}, {0x0f});
+  EXPECT_EQ(Photo::Load(palette).grey().at<uchar>(2, 3), 0);
+  EXPECT_EQ(Photo::Load(palette).grey().at<uchar>(2, 4), 255);
+  const fs::path alpha = WriteRawPng("alpha.png",
+                                     {2, 2},
+                                     {PNG_COLOR_TYPE_RGB_ALPHA, 8, PNG_INTERLACE_NONE},
+                                     {0, 0, 0, 0, 0, 0, 0, 255});
+  EXPECT_EQ(Photo::Load(alpha).grey().at<uchar>(0, 0), 255);
+  EXPECT_EQ(Photo::Load(alpha).grey().at<uchar>(0, 1), 0);
+  const fs::path laced = WriteRawPng("laced.png",
+                                     {9, 9},
+                                     {PNG_COLOR_TYPE_GRAY, 8, PNG_INTERLACE_ADAM7},
+                                     {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  EXPECT_EQ(Photo::Load(laced).grey().at<uchar>(7, 5), 5);
+}
+
+TEST(PhotoLoad, ReadsInksAsLight) {
+  // libjpeg marks CMYK as Adobe's: 255 is no ink, so light is the product of ink and black.
+  const Photo photo = Photo::Load(
+      Write("cmyk.jpg", Jpeg(cv::Mat(32, 32, CV_8UC1, cv::Scalar(200)), {JCS_CMYK, 4, 0, ""})));
+  EXPECT_NEAR(photo.grey().at<uchar>(16, 16), 200 * 200 / 255, 2);
+  EXPECT_EQ(photo.DecodeColour(16).size(), cv::Size(16, 16));
+}
+
+TEST(PhotoLoad, ReadsTiff) {
+  const fs::path path = fs::path(testing::TempDir()) / "scan.tif";
+  TIFF* const tiff = TIFFOpen(path.c_str(), "w");
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 4);
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 2);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 600.0);
+  TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 600.0);
+  TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_INCH);
+  unsigned char row[] = {0, 50, 100, 255};
+  TIFFWriteScanline(tiff, row, 0, 0);
+  TIFFWriteScanline(tiff, row, 1, 0);
+  TIFFClose(tiff);
+  const Photo photo = Photo::Load(path);
+  EXPECT_EQ(photo.metadata().format, "tiff");
+  EXPECT_EQ(photo.grey().at<uchar>(1, 2), 100);
+  EXPECT_EQ(photo.metadata().dpi, 600);
+}
+
+TEST(Photo, DisplaysEveryOrientationAsViewersDo) {
+  // EXIF 2.3: the corner of the stored picture that is displayed at the top left.
+  const std::vector<Eigen::Vector2d> top_left = {
+      {0, 0}, {29, 0}, {29, 19}, {0, 19}, {0, 0}, {0, 19}, {29, 19}, {29, 0}};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    const Photo photo = Photo::Load(
+        Write("turned.jpg", Jpeg(Gradient(30, 20), {JCS_GRAYSCALE, 1, 0, Exif(orientation, 0)})));
+    ASSERT_EQ(photo.metadata().orientation, orientation);
+    EXPECT_EQ(photo.displayed_width(), orientation < 5 ? 30 : 20);
+    EXPECT_EQ(photo.displayed_height(), orientation < 5 ? 20 : 30);
+    EXPECT_EQ(photo.StoredFromDisplayed({0, 0}), top_left[static_cast<size_t>(orientation) - 1])
+        << orientation;
+    const Eigen::Vector2d place(7, 3);
+    EXPECT_EQ(photo.DisplayedFromStored(photo.StoredFromDisplayed(place)), place) << orientation;
+    Eigen::Matrix2d turn;
+    turn << photo.DisplayedFromStored({1, 0}) - photo.DisplayedFromStored({0, 0}),
+        photo.DisplayedFromStored({0, 1}) - photo.DisplayedFromStored({0, 0});
+    EXPECT_EQ(turn.determinant() < 0, photo.mirrored()) << orientation;
+  }
+}
+
+TEST(Photo, DecodesColourAsSmallAsAsked) {
+  const Photo photo =
+      Photo::Load(Write("large.jpg", Jpeg(Gradient(1600, 1200), {JCS_RGB, 3, 0, ""})));
+  for (const int side : {100, 333, 1600, 5000}) {
+    const cv::Mat colour = photo.DecodeColour(side);
+    EXPECT_EQ(colour.type(), CV_8UC3);
+    EXPECT_EQ(std::max(colour.cols, colour.rows), std::min(side, 1600));
+    EXPECT_NEAR(cv::mean(colour)[0], cv::mean(photo.grey())[0], 1) << side;
+  }
+  EXPECT_THROW(static_cast<void>(photo.DecodeColour(0)), std::invalid_argument);
+}
+
+TEST(PhotoMetadata, TrustsAResolutionOnlyFromAScanner) {
+  const cv::Mat grey = Gradient(40, 30);
+  EXPECT_EQ(Photo::Load(Write("scan.jpg", Jpeg(grey, {JCS_GRAYSCALE, 1, 300, ""}))).metadata().dpi,
+            300);
+  EXPECT_FALSE(Photo::Load(Write("web.jpg", Jpeg(grey, {JCS_GRAYSCALE, 1, 72, ""})))
+                   .metadata()
+                   .dpi.has_value());
+  EXPECT_FALSE(Photo::Load(Write("camera.jpg", Jpeg(grey, {JCS_GRAYSCALE, 1, 300, Exif(1, 28)})))
+                   .metadata()
+                   .dpi.has_value());
+}
+
+TEST(PhotoMetadata, KnowsTheFocalLengthInPixels) {
+  const Photo photo =
+      Photo::Load(Write("phone.jpg", Jpeg(Gradient(400, 300), {JCS_GRAYSCALE, 1, 0, Exif(1, 28)})));
+  ASSERT_TRUE(photo.metadata().focal_length_px.has_value());
+  EXPECT_NEAR(*photo.metadata().focal_length_px,
+              28 * 500 / 43.2666,
+              1e-3);  // 28 mm to the diagonal of 35 mm film
+}
+
+TEST(Sha256Hex, AgreesWithTheStandard) {
+  EXPECT_EQ(Sha256Hex(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(Sha256Hex("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(Sha256Hex(std::string(1000000, 'a')),
+            "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
+}
+
+}  // namespace
+}  // namespace bladecurve
