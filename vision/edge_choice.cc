@@ -137,8 +137,8 @@ std::vector<double> HighestSteps(const StepMap& map) {
 }
 
 StepLine OutermostLine(const Survey& survey, double search_px) {
-  constexpr double kOutwards = 0.045;  // a px: of two clear lines the outer one is the border
-  constexpr double kForHeight = 0.15;  // unless it is much the lower one and near
+  constexpr double kOutwards = 0.055;  // a px: of two clear lines the outer one is the border
+  constexpr double kForHeight = 0.12;  // unless it is much the lower one and near
   const std::vector<double> highest = HighestSteps(survey.map);
   return FindBestLine(
       survey.map,

@@ -178,7 +178,7 @@ class EdgePhotos : public ::testing::Test {
 
 // One scene in eight has a blade that is overexposed by far; its bloom is no edge.
 TEST_F(EdgePhotos, UpperEdgesOfRenderedScenesAreFound) {
-  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "rendered", "upper")), 0.8);
+  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "rendered", "upper")), 0.85);
 }
 
 // The lower edges lie in the shadow of the blade: some are as bright as it.
@@ -187,11 +187,11 @@ TEST_F(EdgePhotos, MostLowerEdgesOfRenderedScenesAreFound) {
 }
 
 TEST_F(EdgePhotos, UpperEdgesOfRealPhotographsAreFound) {
-  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "real", "upper")), 0.8);
+  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "real", "upper")), 0.9);
 }
 
 TEST_F(EdgePhotos, LowerEdgesOfRealPhotographsAreFound) {
-  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "real", "lower")), 0.75);
+  EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "real", "lower")), 0.8);
 }
 
 }  // namespace
