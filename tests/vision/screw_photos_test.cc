@@ -58,20 +58,23 @@ double ShankWidth(const std::string& name) {
   return 0;
 }
 
+Vector2d PointFrom(const Json& pair) {
+  return {pair.at(0).get<double>(), pair.at(1).get<double>()};
+}
+
 std::optional<PhotoOfScrew> ReadTruth(const fs::path& truth_file) {
   const Json truth = Json::parse(std::ifstream(truth_file));
   PhotoOfScrew photo;
   if (truth.contains("schema")) {
     const Json& pivot = truth.at("pivot");
     photo.file = truth_file.parent_path() / truth.at("image").at("file").get<std::string>();
-    photo.center_px = {pivot.at("screw_top_center_px").at(0),
-                       pivot.at("screw_top_center_px").at(1)};
+    photo.center_px = PointFrom(pivot.at("screw_top_center_px"));
     const double radius = pivot.at("screw_rim_check").at("radius_px");
     photo.sigma_px = 0.07 * radius;     // light from one side on a bevelled rim
     photo.shank_width_px = 4 * radius;  // as drawn by that renderer
   } else {
     photo.file = truth_file.parent_path() / truth.at("image").get<std::string>();
-    photo.center_px = {truth.at("pivot_px").at(0), truth.at("pivot_px").at(1)};
+    photo.center_px = PointFrom(truth.at("pivot_px"));
     photo.sigma_px = truth.at("pivot_sigma_px");
     const double width = ShankWidth(photo.file.filename().string());
     if (width == 0) return std::nullopt;
