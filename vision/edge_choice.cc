@@ -243,11 +243,28 @@ void CompareWithRival(const Survey& survey,
   chosen.ambiguity = std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0);
 }
 
+struct Surveyed {
+  Survey survey;
+  StepLine line;
+};
+
+// Where noise hides the steps, averaging over more of the guess, however it wanders, may show them.
+Surveyed SurveyAndLine(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  constexpr double kWellSeen = 0.6;
+  constexpr StationLayout kLong = {4, 25};
+  Surveyed usual{Straightened(grey, guess, search_px), {}};
+  usual.line = WithoutHardShadow(usual.survey, OutermostLine(usual.survey, search_px), search_px);
+  const double seen = ClearShare(usual.survey.map, usual.line);
+  if (seen > kWellSeen) return usual;
+  Surveyed averaged{Take(grey, guess, {}, search_px, kLong), {}};
+  averaged.line = OutermostLine(averaged.survey, search_px);
+  return ClearShare(averaged.survey.map, averaged.line) > seen ? averaged : usual;
+}
+
 }  // namespace
 
 ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  const Survey survey = Straightened(grey, guess, search_px);
-  const StepLine line = WithoutHardShadow(survey, OutermostLine(survey, search_px), search_px);
+  const auto [survey, line] = SurveyAndLine(grey, guess, search_px);
   ChosenTransition chosen;
   chosen.blur_px = survey.map.blur_px;
   chosen.support = ClearShare(survey.map, line);
