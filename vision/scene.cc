@@ -110,6 +110,7 @@ Scene SceneFrom(const Candidate& found) {
   scene.left = ToSceneBlade(at, pair.first, left);
   scene.right = ToSceneBlade(at, pair.second, right);
   scene.crotch_px = at.FullFromSmall(crossing);
+  scene.shank_crotch_px = at.FullFromSmall(*pair.shank_crotch);
   scene.pivot_px = at.FullFromSmall(pair.pivot);
   scene.pivot_sigma_px = pair.pivot_sigma * at.full_px_per_px();
   scene.shank_width_px = pair.shank_width * at.full_px_per_px();

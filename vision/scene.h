@@ -27,7 +27,8 @@ struct SceneBlade {
 struct Scene {
   SceneBlade left, right;  // seen from the pivot towards the tips, in the stored picture
   Eigen::Vector2d crotch_px;
-  Eigen::Vector2d pivot_px;  // where the members cross
+  Eigen::Vector2d shank_crotch_px;  // the concavity behind the pivot, between the shanks
+  Eigen::Vector2d pivot_px;         // where the members cross
   double pivot_sigma_px = 0;
   double shank_width_px = 0;
   double path_sigma_px = 0;  // how far off the paths may be
