@@ -29,8 +29,7 @@ struct ScaleOptions {
   bool pixels = false;                          // --units px: one "mm" is one pixel
 };
 
-// A printed marker seen in the picture: scene finding leaves it out, the tone curve is measured on
-// it.
+// A printed marker seen in the picture: scene finding leaves it out.
 struct SeenMarker {
   int id = 0;
   std::array<Eigen::Vector2d, 4>
@@ -43,7 +42,7 @@ struct ScaleResult {
   std::vector<SeenMarker> markers;
   // Other print on a card (check bar, text), in the stored picture: no part of the scene.
   std::vector<std::array<Eigen::Vector2d, 4>> print_px;
-  ToneCurve tone;  // measured on the markers where there are any, else sRGB
+  ToneCurve tone;  // sRGB, with what is uncertain about it
 };
 
 // Throws Refused{kNoScale} where nothing says how many mm a pixel is, std::invalid_argument for

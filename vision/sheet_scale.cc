@@ -13,7 +13,6 @@
 #include "vision/marker_corners.h"
 #include "vision/refused.h"
 #include "vision/sheet_pose.h"
-#include "vision/tone_from_markers.h"
 
 namespace bladecurve {
 namespace {
@@ -107,16 +106,12 @@ bool LensBendsSides(const std::vector<SeenMarker>& markers, const Camera& camera
   return false;
 }
 
-// Tone curve from the markers' sides, then the sheet, then both once more with the lens just found,
-// which bends the sides. Corners are located anew only where curve or lens matters.
+// The sheet, then once more with the lens just found where it bends the markers' sides.
 Solved Solve(const Photo& photo, std::vector<SeenMarker> markers, const ProblemFrom& problem) {
-  const cv::Mat& grey = photo.grey();
-  const ToneCurve tone = MeasureToneCurve(grey, markers);
-  if (tone.linear != SrgbToneCurve().linear)
-    markers = RelocateMarkers(grey, tone, markers, std::nullopt);
+  const ToneCurve tone = SrgbToneCurve();
   SheetSolution solution = SolveSheet(problem(markers));
   if (LensBendsSides(markers, solution.pose.camera)) {
-    markers = RelocateMarkers(grey, tone, markers, solution.pose.camera);
+    markers = RelocateMarkers(photo.grey(), tone, markers, solution.pose.camera);
     solution = SolveSheet(problem(markers));
   }
   Solved solved{{}, std::move(solution)};
