@@ -16,6 +16,7 @@ using Rectangle = CardDrawing::Rectangle;
 constexpr int kCells = 4;
 constexpr double kMmPerInch = 25.4;
 constexpr double kBarMm = 100;
+constexpr double kSmallMm = 2.3;  // keeps the widest common sans serif off the markers
 
 // White cells as few rectangles as a greedy cover gives, none over another: row, column, rows,
 // columns.
@@ -91,12 +92,12 @@ void DrawTitle(const Card& card, CardDrawing* drawing) {
   std::string name = card.name;
   name[0] = static_cast<char>(std::toupper(name[0]));
   const auto& area = card.print_mm[0];
-  DrawLines({"bladecurve card " + name}, {area[0], area[1] + area[3] - 4}, 4, drawing);
-  DrawLines({"sheet " + Millimetres(card.width_mm) + " x " + Millimetres(card.height_mm) +
-                 " mm, markers " + Millimetres(card.marker_mm) + " mm",
+  DrawLines({"bladecurve card " + name}, {area[0], area[1] + area[3] - 3.5}, 3.2, drawing);
+  DrawLines({Millimetres(card.width_mm) + " x " + Millimetres(card.height_mm) + " mm, markers " +
+                 Millimetres(card.marker_mm) + " mm",
              "Print at 100 %: no \"fit to page\"."},
-            {area[0], area[1] + area[3] - 8.5},
-            2.5,
+            {area[0], area[1] + area[3] - 7.5},
+            kSmallMm,
             drawing);
 }
 
@@ -106,9 +107,9 @@ void DrawInstructions(const Card& card, CardDrawing* drawing) {
       {"Measure this bar. If it is not 100 mm long, add --print-scale LENGTH/100 when fitting.",
        "Lay the sheet flat, the blades open inside the ring of markers. Photograph the whole",
        "sheet from straight above and 300 mm or more away, sharp and not overexposed.",
-       "bladecurve fit PHOTO --plane-height-mm HEIGHT OF THE CUTTING EDGE ABOVE THE SHEET"},
+       "bladecurve fit PHOTO --plane-height-mm (cutting edge above the sheet)"},
       {area[0], area[1] + area[3] - 6},
-      2.5,
+      kSmallMm,
       drawing);
 }
 
