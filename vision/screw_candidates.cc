@@ -9,15 +9,15 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kRadiusRatio =
-    1.07;  // of neighbouring circles: half the field's blur on a rim of 14 px
+// Of neighbouring circles: on the rim hardly more than the blur of the field, 1 px.
+constexpr double kRadiusRatio = 1.07;
 constexpr float kLeastScore = 0.4F;   // below: what any textured ground reaches by chance
 constexpr std::size_t kPeaks = 100;   // circles to be asked for straight edges
 constexpr std::size_t kClimbed = 20;  // circles to be bent into ellipses
 constexpr std::size_t kKept = 8;      // ellipses to be looked at closely
 constexpr double kSamePx = 0.7;  // closer in centre and radius than this: the same rim found twice
-constexpr double kMostElongation =
-    0.12;  // |ln(a/b)|/2; beyond 38 degrees of tilt it is half a head cut by its slot
+// |ln(a/b)|/2: beyond 38 degrees of tilt it is half a head cut off by its slot.
+constexpr double kMostElongation = 0.12;
 constexpr int kMostRoundsPerStep = 3;
 
 // Scores of one radius over all centres.

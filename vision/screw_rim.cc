@@ -16,8 +16,7 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-constexpr int kFewestProfiles = 24,
-              kMostProfiles = 96;           // about one per px of rim; more only cost time
+constexpr int kFewestProfiles = 24;
 constexpr double kTapPx = 0.5;              // spacing along a profile
 constexpr double kShrink = 0.8;             // of the profiles from one iteration to the next
 constexpr double kMostRelativeShift = 0.6;  // of half a profile: a larger one is an extrapolation
@@ -26,20 +25,17 @@ constexpr double kLeastScatterPx = 0.02;    // keeps the biweight open on perfec
 constexpr double kLeastCorrelation = 0.2;   // profiles less alike the common one have no weight
 constexpr double kRimCorrelation = 0.6;     // profiles more alike count as rim seen
 constexpr double kRimLeastStrength = 0.1;   // of the median: fainter is noise that happens to fit
-constexpr double kRimRelativeWidth =
-    0.06;  // of the radius: how near to the ellipse a rim point must be
-constexpr double kRimLeastWidthPx = 0.5;
-constexpr double kSmoothingTurns =
-    1.0 / 64;  // Gaussian sigma along the rim before profiles are judged
-constexpr double kFewBlocks =
-    1.25;  // F(2, 14) over chi^2(2)/2 at 95 %: so few blocks scatter themselves
+// How near to the ellipse a rim point must be, of the radius and at least.
+constexpr double kRimRelativeWidth = 0.06, kRimLeastWidthPx = 0.5;
+constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
+// F(2, 14) over chi^2(2)/2 at 95 %: so few blocks scatter themselves.
+constexpr double kFewBlocks = 1.25;
 constexpr std::size_t kBlocks = 24;       // of the rim, taken as independent in the covariance
 constexpr double kLeastSlopeShare = 0.3;  // a rim of outliers only: the scatter means nothing then
 constexpr int kReweightings = 4;
-constexpr double kNormalMad =
-    1.4826;  // standard deviation over median absolute deviation, normal law
-constexpr double kLeastOfStart = 0.5,
-                 kMostOfStart = 1.6;  // semi-axes over the radius begun with: else it ran away
+constexpr double kNormalMad = 1.4826;  // standard deviation over median deviation, normal law
+// Semi-axes over the radius begun with; beyond, the fit ran away to something else.
+constexpr double kLeastOfStart = 0.5, kMostOfStart = 1.6;
 // Weight of "no change", in profiles: keeps the equations solvable where hardly any rim is seen.
 const Vector5d kDamping(1e-6, 1e-6, 1e-2, 1e-2, 1e-2);
 
