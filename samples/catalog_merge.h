@@ -24,8 +24,8 @@ struct CatalogStatus {
 
 [[nodiscard]] CatalogStatus StatusOfCatalog(const std::filesystem::path& out);
 
-// Joins the rows of all shards into OUT/catalog.jsonl, .csv and .sqlite, sorted by instrument: the same
-// bytes however the work was split.
+// Joins the rows of all shards into OUT/catalog.jsonl, .csv and .sqlite, sorted by instrument: the
+// same bytes however the work was split.
 void MergeCatalog(const std::filesystem::path& out);
 
 }  // namespace bladecurve
