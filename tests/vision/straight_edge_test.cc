@@ -71,17 +71,17 @@ double Bound(const SquareImage& image, double length_px) {
 class StraightEdgeBound : public testing::TestWithParam<double> {};
 
 TEST_P(StraightEdgeBound, IsReachedWithoutBias) {
-  constexpr int kDraws = 120;
+  constexpr int kDraws = 50;
   SquareImage image;
   image.blur_px = GetParam();
   image.side_px = 150;
   const StraightEdgeGuess used = MarkerSide(Corners(image), 0, {2, std::nullopt});
   const double bound = Bound(image, (used.to_px - used.from_px).norm());
   const Scatter scatter = Measure(image, kDraws);
-  // The goal is 1.10; the rms of 120 draws is itself known to 6.5 %.
-  EXPECT_LT(scatter.rms, 1.10 * 1.13 * bound) << "bound " << bound;
+  // The goal is 1.10; the rms of 50 draws is itself known to 10 %.
+  EXPECT_LT(scatter.rms, 1.10 * 1.20 * bound) << "bound " << bound;
   EXPECT_NEAR(scatter.bias, 0, 3 * bound / std::sqrt(kDraws)) << "rms " << scatter.rms;
-  EXPECT_NEAR(scatter.mean_sigma / scatter.rms, 1, 0.25);
+  EXPECT_NEAR(scatter.mean_sigma / scatter.rms, 1, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Blurs, StraightEdgeBound, testing::Values(0.6, 1.0, 1.5));
@@ -132,7 +132,7 @@ TEST(LocateMarkerCorners, AreGoodToAHundredthOfAPixel) {
     SquareImage image;
     image.blur_px = blur;
     image.side_px = 150;
-    EXPECT_LT(CornerRms(image, LinearToneCurve(), 15), 0.01) << "blur " << blur;
+    EXPECT_LT(CornerRms(image, LinearToneCurve(), 10), 0.01) << "blur " << blur;
   }
 }
 
