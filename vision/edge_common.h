@@ -9,7 +9,8 @@
 namespace bladecurve {
 
 // Standard uncertainty, px, of an offset that all points of an edge share and no amount of pixels
-// reduces: a tone curve that is not known, overexposure, another transition that might be the border.
+// reduces: a tone curve that is not known, overexposure, another transition that might be the
+// border.
 [[nodiscard]] double CommonSigma(const EdgeFit& fit,
                                  const ToneCurve& tone,
                                  const ChosenTransition& chosen);
