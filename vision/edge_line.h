@@ -26,7 +26,8 @@ struct StepLine {
 // Median height of the steps under the line: positive where the outside is brighter.
 [[nodiscard]] double TypicalHeight(const StepMap& map, const StepLine& line);
 
-// Position of the step nearest to a row, between rows, from the parabola through the heights about it.
+// Position of the step nearest to a row, between rows, from the parabola through the heights about
+// it.
 [[nodiscard]] double PeakRow(const StepMap& map, int station, int row);
 
 // Rows of the line between the rows of the map, by the parabola through each peak, smoothed along

@@ -8,7 +8,8 @@
 namespace bladecurve {
 
 // Points of an edge from its slices: combined to the wanted spacing, their sigma enlarged to the
-// scatter they show, outliers marked, the correlation of neighbours measured. Throws Refused{kBlurred}.
+// scatter they show, outliers marked, the correlation of neighbours measured. Throws
+// Refused{kBlurred}.
 [[nodiscard]] LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options);
 
 }  // namespace bladecurve
