@@ -23,7 +23,7 @@ constexpr double kStiffness = 1e-6;  // bridges a nick without bending the rest
 constexpr int kTrials =
     400;  // finds 4 good points of 4 among 60 % bad ones with probability 0.9999
 constexpr int kScoredPoints = 400;
-constexpr double kSupport = 0.4;  // this part of the points at least is the edge
+constexpr double kSupport = 0.35;  // this part of the points at least is the edge
 constexpr double kMedianOfHalfNormal = 0.6745;
 constexpr double kHardlyMoved = 1.5;  // a scatter below this many sigmas shows no crowd of outliers
 
@@ -72,8 +72,8 @@ double PolynomialAt(const Eigen::Vector4d& p, double t) {
   return p(0) + t * (p(1) + t * (p(2) + t * p(3)));
 }
 
-// The cubic that the best-fitting 40 % of the points agree on: least quantile of squares (Rousseeuw
-// 1984) over points picked one from each quarter of the edge.
+// The cubic that the best-fitting third of the points agrees on: least quantile of squares
+// (Rousseeuw 1984) over points picked one from each quarter of the edge.
 Eigen::Vector4d BestSupported(const std::vector<FlatPoint>& points, double centre) {
   std::mt19937 random(20080531);  // any fixed seed: the same input gives the same curve
   const size_t n = points.size();

@@ -42,7 +42,10 @@ class ShapeRows {
       const Eigen::Vector2d p = frame(edge.points[i]);
       ShapeRow& row = rows[static_cast<size_t>(i)];
       if (is_spline_) {
-        const SplineDistance d = DistanceFrom(table_.At(p.x()), table_.degree(), c_.data(), p.y());
+        const BasisRow basis = table_.At(p.x());
+        const double slope = SlopeAt(basis, table_.degree(), c_.data());
+        const double cosine = 1 / std::sqrt(1 + slope * slope);
+        const SplineDistance d = DistanceFrom(basis, table_.degree(), c_.data(), p.y(), cosine);
         row.first = d.first;
         for (int j = 0; j <= table_.degree(); ++j) row.values(j) = d.d_c[j];
       } else {

@@ -13,6 +13,10 @@
 namespace bladecurve {
 namespace {
 
+Eigen::VectorXd SplineCoefficientsOf(const JointModel& model, const JointState& state) {
+  return CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
+}
+
 // Reaches, then zeros: those that the model has.
 std::vector<double*> EndBlocks(const FitData& data, const JointModel& model, JointState& state) {
   std::vector<double*> blocks;
@@ -36,9 +40,11 @@ std::unique_ptr<ceres::Problem> NewProblem(const FitData& data,
     double* reach = &state.reaches[model.space ? 0 : p];
     double* zero = &state.zeros[model.space ? 0 : p];
     if (model.space) {
-      problem->AddResidualBlock(NewSplineEdges(photo, *model.space, model.loss, model.mirror[p]),
-                                nullptr,
-                                {state.shape.data(), reach, zero, pose});
+      const SplineEdgesStart start{SplineCoefficientsOf(model, state), state.poses[p]};
+      problem->AddResidualBlock(
+          NewSplineEdges(photo, *model.space, model.loss, model.mirror[p], start),
+          nullptr,
+          {state.shape.data(), reach, zero, pose});
     } else {
       problem->AddResidualBlock(NewTaperedEdges(photo, model.mirror[p]),
                                 nullptr,
@@ -107,14 +113,16 @@ std::vector<double> Distances(const EdgeSamples& edge,
   std::vector<double> distances;
   distances.reserve(edge.points.size());
   if (model.space) {
-    const Eigen::VectorXd c =
-        CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
+    const Eigen::VectorXd c = SplineCoefficientsOf(model, state);
     const BasisTable table(*model.space);
     const BladeFrame frame(pose, is_upper);
     for (const Eigen::Vector2d& point : edge.points) {
       const Eigen::Vector2d p = frame(point);
-      const double d = DistanceFrom(table.At(p.x()), table.degree(), c.data(), p.y()).d;
-      distances.push_back(d + pose[kOffset]);
+      const BasisRow row = table.At(p.x());
+      const double slope = SlopeAt(row, table.degree(), c.data());
+      const double cosine = 1 / std::sqrt(1 + slope * slope);
+      const double d = DistanceFrom(row, table.degree(), c.data(), p.y(), cosine).d;
+      distances.push_back((d + pose[kOffset]) / (1 + pose[kScale]));
     }
     return distances;
   }
@@ -126,7 +134,8 @@ std::vector<double> Distances(const EdgeSamples& edge,
   for (const Eigen::Vector2d& point : edge.points) {
     const Eigen::Vector2d p = frame(point);
     const double above = p.y() - state.shape[0] - slope * p.x();
-    distances.push_back(above / std::sqrt(1 + slope * slope) + pose[kOffset]);
+    const double d = above / std::sqrt(1 + slope * slope);
+    distances.push_back((d + pose[kOffset]) / (1 + pose[kScale]));
   }
   return distances;
 }

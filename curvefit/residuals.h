@@ -28,8 +28,8 @@ struct SoftResidual {
 [[nodiscard]] SoftResidual Soften(Loss loss, double residual);
 
 // Signed orthogonal distance of a point from the edge v = s(u), and its derivatives. To first order
-// in the distance, d = (v - s)/sqrt(1 + s'^2); the next term is d^2 s''/2, 1e-5 mm for d = 0.05 mm
-// and a radius of 100 mm.
+// in the distance, d = (v - s) cos, cos = 1/sqrt(1 + s'^2); the next term is d^2 s''/2, 1e-5 mm for
+// d = 0.05 mm and a radius of 100 mm.
 struct SplineDistance {
   double d = 0;
   double d_u = 0, d_v = 0;
@@ -37,10 +37,11 @@ struct SplineDistance {
   int first = 0;
 };
 // Of the point (u, v); `row` holds the basis functions at u.
-[[nodiscard]] SplineDistance DistanceFrom(const BasisRow& row,
-                                          int degree,
-                                          const double* coefficients,
-                                          double v);
+[[nodiscard]] SplineDistance DistanceFrom(
+    const BasisRow& row, int degree, const double* coefficients, double v, double cosine);
+
+// s' at the place of the row.
+[[nodiscard]] double SlopeAt(const BasisRow& row, int degree, const double* coefficients);
 
 // The spline's coefficients from the parameters of the fit, which keep s(u_end) = -u_end
 // tan(zero/2): all but the last coefficient of a spline T, the reach u_end, and the opening that
@@ -67,10 +68,19 @@ struct SplineCoefficients {
 // coefficients, reach, zero, pose. Thousands of points are condensed to as many residuals as there
 // are parameters, and one more for what no parameter can change: same cost, same gradient, same
 // Gauss-Newton matrix. The lower edge is used if `mirror`.
+// The edge's direction in the photograph at each point is held as it is at `start`: were it free, a
+// curve that misses its points could come nearer to them, in this measure, by standing upright.
+// Held in the photograph, not in the blade's frame: else turning the frame would change distances.
+// Distances are counted in the photograph's own lengths, else they would shrink with its scale.
+struct SplineEdgesStart {
+  Eigen::VectorXd coefficients;
+  Pose pose;
+};
 [[nodiscard]] ceres::CostFunction* NewSplineEdges(const PhotoData& photo,
                                                   const SplineSpace& space,
                                                   Loss loss,
-                                                  bool mirror);
+                                                  bool mirror,
+                                                  const SplineEdgesStart& start);
 
 // The same against a straight edge of slope b + gain tan(theta/2); blocks: (a, b), gain, pose.
 [[nodiscard]] ceres::CostFunction* NewTaperedEdges(const PhotoData& photo, bool mirror);

@@ -44,17 +44,34 @@ class EdgeFrame {
     return Turned((1 + pose_[kScale]) * point - Eigen::Vector2d(pose_[kPivotX], pose_[kPivotY]));
   }
 
-  // Derivatives of the residual (distance + offset) by the five pose columns.
+  // A length of the blade in the photograph's own lengths, in which its sigmas stand; residuals in
+  // mm of the blade would all shrink with the scale, and a smaller scale alone would fit better.
+  [[nodiscard]] double InPhoto(double length) const { return length / (1 + pose_[kScale]); }
+
+  // Direction in the photograph of an edge of this slope in the blade's frame.
+  [[nodiscard]] Eigen::Vector2d Direction(double slope) const {
+    const double along = 1 / std::sqrt(1 + slope * slope), up = side_ * along * slope;
+    return {cosine_ * along - sine_ * up, sine_ * along + cosine_ * up};
+  }
+  // cos of the inclination that a direction of the photograph has in the blade's frame.
+  [[nodiscard]] double Cosine(const Eigen::Vector2d& direction) const {
+    return direction.x() * cosine_ + direction.y() * sine_;
+  }
+
+  // Derivatives of InPhoto(distance + offset) by the five pose columns, times 1 + scale.
   void PoseColumns(const SplineDistance& distance,
+                   const Eigen::Vector2d& direction,
                    const Eigen::Vector2d& point,
                    const Eigen::Vector2d& in_blade,
                    double* out) const {
     const double du = distance.d_u, dv = side_ * distance.d_v;
+    const double above = distance.d / distance.d_v;
+    const double cosine_by_angle = direction.y() * cosine_ - direction.x() * sine_;
     const Eigen::Vector2d turned = Turned(point);
     out[0] = -cosine_ * du + sine_ * dv;
     out[1] = -sine_ * du - cosine_ * dv;
-    out[2] = side_ * in_blade.y() * du - in_blade.x() * dv;
-    out[3] = turned.x() * du + turned.y() * distance.d_v;
+    out[2] = side_ * in_blade.y() * du - in_blade.x() * dv + above * cosine_by_angle;
+    out[3] = turned.x() * du + turned.y() * distance.d_v - InPhoto(distance.d + pose_[kOffset]);
     out[4] = 1;
   }
 
@@ -66,10 +83,19 @@ class EdgeFrame {
 
 class SplineEdges final : public ceres::CostFunction {
  public:
-  SplineEdges(const PhotoData& photo, SplineSpace space, Loss loss, bool mirror)
+  SplineEdges(const PhotoData& photo,
+              SplineSpace space,
+              Loss loss,
+              bool mirror,
+              const SplineEdgesStart& start)
       : photo_(photo), space_(std::move(space)), table_(space_), loss_(loss), mirror_(mirror) {
     *mutable_parameter_block_sizes() = {space_.size() - 1, 1, 1, kPoseSize};
     set_num_residuals(space_.size() + kPoseSize + 1);
+    upper_directions_ =
+        Directions(photo.upper, EdgeFrame(start.pose.data(), true), start.coefficients);
+    if (!mirror) return;
+    lower_directions_ =
+        Directions(photo.lower, EdgeFrame(start.pose.data(), false), start.coefficients);
   }
 
   bool Evaluate(double const* const* parameters,
@@ -90,13 +116,29 @@ class SplineEdges final : public ceres::CostFunction {
   }
 
  private:
+  [[nodiscard]] std::vector<Eigen::Vector2d> Directions(const EdgeSamples& edge,
+                                                        const EdgeFrame& frame,
+                                                        const Eigen::VectorXd& coefficients) const {
+    std::vector<Eigen::Vector2d> directions;
+    directions.reserve(edge.points.size());
+    for (const Eigen::Vector2d& point : edge.points) {
+      const BasisRow row = table_.At(frame.InBlade(point).x());
+      const double slope = SlopeAt(row, space_.degree, coefficients.data());
+      directions.push_back(frame.Direction(slope));
+    }
+    return directions;
+  }
+
   [[nodiscard]] double Squares(const double* coefficients, const double* pose) const {
-    double sum = SquaresOf(photo_.upper, EdgeFrame(pose, true), coefficients, pose);
-    if (mirror_) sum += SquaresOf(photo_.lower, EdgeFrame(pose, false), coefficients, pose);
+    double sum =
+        SquaresOf(photo_.upper, upper_directions_, EdgeFrame(pose, true), coefficients, pose);
+    if (mirror_)
+      sum += SquaresOf(photo_.lower, lower_directions_, EdgeFrame(pose, false), coefficients, pose);
     return sum;
   }
 
   [[nodiscard]] double SquaresOf(const EdgeSamples& edge,
+                                 const std::vector<Eigen::Vector2d>& directions,
                                  const EdgeFrame& frame,
                                  const double* coefficients,
                                  const double* pose) const {
@@ -104,13 +146,12 @@ class SplineEdges final : public ceres::CostFunction {
     for (int i = 0; i < edge.size(); ++i) {
       const Eigen::Vector2d p = frame.InBlade(edge.points[i]);
       const BasisRow row = table_.At(p.x());
-      double above = p.y(), slope = 0;
+      double above = p.y();
       for (int j = 0; j <= space_.degree; ++j) {
         above -= row.value[j] * coefficients[row.first + j];
-        slope += row.slope[j] * coefficients[row.first + j];
       }
-      const double d = above / std::sqrt(1 + slope * slope);
-      const double r = Soften(loss_, edge.weights[i] * (d + pose[kOffset])).value;
+      const double d = above * frame.Cosine(directions[i]);
+      const double r = Soften(loss_, edge.weights[i] * frame.InPhoto(d + pose[kOffset])).value;
       sum += r * r;
     }
     return sum;
@@ -119,13 +160,16 @@ class SplineEdges final : public ceres::CostFunction {
   [[nodiscard]] NormalEquations Assemble(const double* coefficients, const double* pose) const {
     const int size = space_.size() + kPoseSize;
     NormalEquations equations{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0};
-    AddEdge(photo_.upper, EdgeFrame(pose, true), coefficients, pose, equations);
-    if (mirror_) AddEdge(photo_.lower, EdgeFrame(pose, false), coefficients, pose, equations);
+    AddEdge(photo_.upper, upper_directions_, EdgeFrame(pose, true), coefficients, pose, equations);
+    if (mirror_)
+      AddEdge(
+          photo_.lower, lower_directions_, EdgeFrame(pose, false), coefficients, pose, equations);
     return equations;
   }
 
   // Points of one span share their columns: they are summed in a small matrix of fixed size.
   void AddEdge(const EdgeSamples& edge,
+               const std::vector<Eigen::Vector2d>& directions,
                const EdgeFrame& frame,
                const double* coefficients,
                const double* pose,
@@ -134,17 +178,19 @@ class SplineEdges final : public ceres::CostFunction {
     int first = -1;
     for (int i = 0; i < edge.size(); ++i) {
       const Eigen::Vector2d p = frame.InBlade(edge.points[i]);
-      const SplineDistance distance =
-          DistanceFrom(table_.At(p.x()), space_.degree, coefficients, p.y());
+      const SplineDistance distance = DistanceFrom(
+          table_.At(p.x()), space_.degree, coefficients, p.y(), frame.Cosine(directions[i]));
       if (distance.first != first) {
         Flush(local, first, frame.angle(), equations);
         first = distance.first;
       }
-      const SoftResidual r = Soften(loss_, edge.weights[i] * (distance.d + pose[kOffset]));
+      const SoftResidual r =
+          Soften(loss_, edge.weights[i] * frame.InPhoto(distance.d + pose[kOffset]));
       LocalRow row = LocalRow::Zero();
       for (int j = 0; j <= space_.degree; ++j) row(j) = distance.d_c[j];
-      frame.PoseColumns(distance, edge.points[i], p, row.data() + kMaxSplineDegree + 1);
-      row *= r.slope * edge.weights[i];
+      frame.PoseColumns(
+          distance, directions[i], edge.points[i], p, row.data() + kMaxSplineDegree + 1);
+      row *= r.slope * frame.InPhoto(edge.weights[i]);
       row(kLocalSize - 1) = r.value;
       for (int k = 0; k < kLocalSize; ++k) local.col(k) += row(k) * row;
     }
@@ -215,29 +261,32 @@ class SplineEdges final : public ceres::CostFunction {
   BasisTable table_;
   Loss loss_;
   bool mirror_;
+  // Of the edge at each point, in the photograph; held.
+  std::vector<Eigen::Vector2d> upper_directions_, lower_directions_;
 };
 
 }  // namespace
 
-SplineDistance DistanceFrom(const BasisRow& row, int degree, const double* coefficients, double v) {
-  double s = 0, slope = 0, curvature = 0;
+double SlopeAt(const BasisRow& row, int degree, const double* coefficients) {
+  double slope = 0;
+  for (int j = 0; j <= degree; ++j) slope += row.slope[j] * coefficients[row.first + j];
+  return slope;
+}
+
+SplineDistance DistanceFrom(
+    const BasisRow& row, int degree, const double* coefficients, double v, double cosine) {
+  double above = v, slope = 0;
+  SplineDistance distance;
   for (int j = 0; j <= degree; ++j) {
     const double c = coefficients[row.first + j];
-    s += row.value[j] * c;
+    above -= row.value[j] * c;
     slope += row.slope[j] * c;
-    curvature += row.curvature[j] * c;
+    distance.d_c[j] = -cosine * row.value[j];
   }
-  const double g = 1 / std::sqrt(1 + slope * slope);
-  const double above = v - s;
-  const double by_slope = -above * g * g * g * slope;
-  SplineDistance distance;
   distance.first = row.first;
-  distance.d = above * g;
-  distance.d_v = g;
-  distance.d_u = -slope * g + by_slope * curvature;
-  for (int j = 0; j <= degree; ++j) {
-    distance.d_c[j] = -g * row.value[j] + by_slope * row.slope[j];
-  }
+  distance.d = above * cosine;
+  distance.d_v = cosine;
+  distance.d_u = -slope * cosine;
   return distance;
 }
 
@@ -283,8 +332,9 @@ SplineParameters ParametersOf(const SplineSpace& space,
 ceres::CostFunction* NewSplineEdges(const PhotoData& photo,
                                     const SplineSpace& space,
                                     Loss loss,
-                                    bool mirror) {
-  return new SplineEdges(photo, space, loss, mirror);
+                                    bool mirror,
+                                    const SplineEdgesStart& start) {
+  return new SplineEdges(photo, space, loss, mirror, start);
 }
 
 }  // namespace bladecurve

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+//
+// Our side of compare_scipy.py. Reads an edge in its blade's frame from standard input: the numbers
+// of interior knots, points and evaluations, then the knots, the points "u v sigma", the places to
+// evaluate. Prints for each method "name milliseconds" and then the values of the curve, one line a
+// method.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "curvefit/choose_knots.h"
+#include "curvefit/fit.h"
+#include "curvefit/linear_spline.h"
+
+namespace bladecurve {
+namespace {
+
+struct Job {
+  std::vector<double> knots, places;
+  std::vector<FlatPoint> points;
+};
+
+Job ReadJob(std::istream& in) {
+  size_t knots = 0, points = 0, places = 0;
+  in >> knots >> points >> places;
+  Job job;
+  job.knots.resize(knots);
+  for (double& k : job.knots) in >> k;
+  for (size_t i = 0; i < points; ++i) {
+    FlatPoint p;
+    double sigma = 1;
+    in >> p.u >> p.v >> sigma;
+    p.weight = 1 / sigma;
+    job.points.push_back(p);
+  }
+  job.places.resize(places);
+  for (double& x : job.places) in >> x;
+  return job;
+}
+
+using Curve = std::function<double(double)>;
+
+Curve AsCurve(const LinearSpline& spline) {
+  return [spline](double u) {
+    const BasisRow row = EvalBasis(spline.space, u);
+    double v = 0;
+    for (int j = 0; j <= spline.space.degree; ++j) {
+      v += row.value[j] * spline.coefficients(row.first + j);
+    }
+    return v;
+  };
+}
+
+Curve WithKnots(const Job& job) {
+  const SplineSpace space = ClampedSpace(3, job.points.front().u, job.points.back().u, job.knots);
+  return AsCurve(FitLinearSpline(job.points, space));
+}
+
+Curve WithChosenKnots(const Job& job) {
+  KnotRequest request;
+  request.lower = job.points.front().u;
+  request.upper = job.points.back().u;
+  request.effective_points = static_cast<double>(job.points.size());
+  return AsCurve(ChooseKnots(job.points, request).spline);
+}
+
+// The whole fit of a photograph whose pose is known, both families, bands and tests included.
+Curve WholeFit(const Job& job) {
+  EdgePoints photo;
+  photo.photo = "comparison";
+  for (const FlatPoint& p : job.points) {
+    photo.upper.push_back({{p.u, p.v}, {0, -1}, 1 / p.weight});
+  }
+  const FlatPoint& end = job.points.back();
+  photo.upper_end.point_mm = {end.u, end.v};
+  photo.lower_end.point_mm = {end.u, -end.v};
+  photo.theta_given = true;  // frames stay as they are: at theta 0 both blades lie along the axis
+  photo.theta_rad = 0;
+  photo.theta_sigma_rad = 1e-9;
+  const BladeCurve curve = FitBlade({photo}).recommended.curve;
+  return [curve](double u) { return curve.Eval(u, 0).phi_mm; };
+}
+
+void Report(const char* name, const Job& job, Curve (*method)(const Job&)) {
+  constexpr int kRepeats = 15;
+  std::vector<double> ms;
+  Curve curve;
+  for (int i = 0; i < kRepeats; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    curve = method(job);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    ms.push_back(took.count());
+  }
+  std::printf("%s %.6f", name, *std::min_element(ms.begin(), ms.end()));
+  for (const double x : job.places) std::printf(" %.17g", curve(x));
+  std::printf("\n");
+}
+
+}  // namespace
+}  // namespace bladecurve
+
+int main() {
+  const bladecurve::Job job = bladecurve::ReadJob(std::cin);
+  bladecurve::Report("given-knots", job, bladecurve::WithKnots);
+  bladecurve::Report("chosen-knots", job, bladecurve::WithChosenKnots);
+  bladecurve::Report("whole-fit", job, bladecurve::WholeFit);
+  return 0;
+}
