@@ -9,9 +9,9 @@
 namespace bladecurve {
 namespace {
 
-// Newton's steps along the edge must be small beside the waves of a blade's edge: else another
-// contact is met.
-constexpr double kLongestNewtonStep_mm = 2.0;
+// Moves along the edge must be small beside the waves of a blade's edge: else another contact is
+// met.
+constexpr double kLongestMove_mm = 2.0;
 constexpr int kMostNewtonSteps = 12;
 // Relative change of x at which Newton has converged: some rounding errors of phi.
 constexpr double kNewtonTolerance = 1e-13;
@@ -22,23 +22,28 @@ constexpr int kMostTurningSteps = 48;
 constexpr double kTurningTolerance = 1e-10;
 // Samples of the way to the end of the blade when the crack jumps to its next contact.
 constexpr int kSnapSamples = 128;
-// Torque left (as a share) where a crack tip that gets lost has run off the blade's end.
-constexpr double kOffBlade = 0.01;
+// Where so small a share of the torque is left, a crack tip that gets lost has run off the blade's
+// end; the share falls with the square of the distance, this one to nothing within the distance
+// below.
+constexpr double kOffBlade = 1e-6;
+constexpr double kOffBlade_mm = 1e-3;
 
 }  // namespace
 
 // The crack tip at `next` on the same branch of contacts. None: the branch ends before, or the
 // stride is too long.
 std::optional<CrackTip> TorqueStep::FollowEdge(const Waypoint& from, double next) noexcept {
-  double x_mm = from.tip.x_mm + TipSpeed(from.tip) * (next - from.s);
+  const double predicted_mm = from.tip.x_mm + TipSpeed(from.tip) * (next - from.s);
+  if (std::abs(predicted_mm - from.tip.x_mm) > kLongestMove_mm) return std::nullopt;
+  double x_mm = predicted_mm;
   for (int i = 0; i < kMostNewtonSteps; ++i) {
     const CrackTip tip = TipAt(x_mm, next);
     const Level level = GrowthLevel(tip);
     if (!tip.can_cut || level.dx >= 0) return std::nullopt;
     const double step_mm = -level.value / level.dx;
     if (std::abs(step_mm) <= kNewtonTolerance * x_mm) return tip;
-    if (std::abs(step_mm) > kLongestNewtonStep_mm) return std::nullopt;
     x_mm += step_mm;
+    if (std::abs(x_mm - predicted_mm) > kLongestMove_mm) return std::nullopt;
   }
   return std::nullopt;
 }
@@ -111,6 +116,8 @@ void TorqueStep::StopCutting(double s) noexcept {
 void TorqueStep::LoseEdge(double s) noexcept {
   if (state_.tip.on_blade < kOffBlade) {
     Log(TorqueEventKind::kBladeEnd, {s, state_.tip}, 0, 0);
+    state_.crack_mm += kOffBlade_mm;
+    state_.tip = TipOfCrack(state_.crack_mm, s);
     leg_start_delta_mm_ = state_.tip.delta_mm;
     state_.mode = CutMode::kElastic;
   } else if (!SnapOutwards(s)) {
