@@ -60,6 +60,7 @@ DrawnEdge DrawEdge(const Json& record, const BladeCurve& curve, const Photo& pho
   fitted.axis_px = PointOf(record.at("axis_px"));
   fitted.theta_rad = record.at("theta_rad").get<double>();
   fitted.mm_per_px = record.at("mm_per_px").get<double>();
+  measured.mm_per_px = fitted.mm_per_px;
   fitted.upper_edge_mm = PointsOf(record.at("upper_edge_mm"));
   const std::vector<Eigen::Vector2d> displayed = FittedEdgePx(measured, fitted, curve);
   if (displayed.size() < 2) throw std::invalid_argument("upper_edge_px: fewer than two points");

@@ -18,8 +18,9 @@ using render::Polygon;
 using render::Ring;
 
 constexpr double kWindowPx = 40;  // of the edge at a time: levels change slowly along a blade
-constexpr double kReachPx = 6;    // on either side: twice the widest blur that is tried
-constexpr double kBladePx = 30;   // depth of the blade that is drawn; beyond the reach and the blur
+constexpr double kReachPx =
+    6;  // on either side: less than a bevel is wide, four times the widest blur that is tried
+constexpr double kBladePx = 40;  // depth of the blade that is drawn; beyond the reach and the blur
 
 // A stretch of the edge and the pixels around it.
 struct Window {
@@ -189,7 +190,7 @@ EdgeAgreement CompareDrawnEdge(const cv::Mat& grey,
   const double side = blade_on_left ? 1 : -1;
   const std::vector<Window> windows = CutIntoWindows(edge_px, grey.size());
   EdgeAgreement best;
-  for (const double blur_px : {0.5, 0.65, 0.8, 1.0, 1.25, 1.6, 2.0, 2.6}) {
+  for (const double blur_px : {0.5, 0.65, 0.8, 1.0, 1.25, 1.6}) {
     const PixelKernel kernel = render::MakePixelKernel(blur_px);
     std::vector<Fit> fits;
     for (const Window& window : windows) {
