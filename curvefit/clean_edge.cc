@@ -164,6 +164,11 @@ double CleanScatter(Cleaning& c) {
   const double scatter = FitRobustly(plain, robust);
   constexpr double kMuchCloser = 0.7;
   if (plain >= kHardlyMoved && scatter > kMuchCloser * plain) return plain;
+  constexpr double kLeastKept = 0.3;  // fewer points are no edge, however well they agree
+  const auto kept = std::count_if(robust.sigmas.begin(), robust.sigmas.end(), [&](double s) {
+    return std::abs(s) <= kRejectSigmas * scatter;
+  });
+  if (static_cast<double>(kept) < kLeastKept * static_cast<double>(c.sigmas.size())) return plain;
   c = std::move(robust);
   return scatter;
 }

@@ -17,6 +17,10 @@ namespace {
 // Nothing is known better than this fraction of the blade's length: keeps exact observations (sigma
 // 0) solvable.
 constexpr double kSmallestSigma = 1e-9;
+// Edge points are not believed to more than this part of the blade's length, 0.1 um for common
+// scissors: beyond that the weights of points and of poses no longer fit into one double, and no
+// photograph comes near.
+constexpr double kSmallestEdgeSigma = 2e-6;
 // A theta given without sigma: a protractor read to half a degree.
 constexpr double kGivenThetaSigma = 0.5 * std::numbers::pi / 180;
 // Distal ends nearer to the pivot than this part of the edge's reach were not observed.
@@ -126,7 +130,7 @@ EdgeSamples ScaledEdge(const EdgePoints& photo,
     const Eigen::Vector2d point = (edge[i].point_mm - photo.pivot.point_mm) / length_mm;
     if (!samples.empty()) arc_mm += (point - samples.points.back()).dot(direction) * length_mm;
     samples.points.push_back(point);
-    samples.weights.push_back(length_mm / edge[i].sigma_mm);
+    samples.weights.push_back(1 / std::max(edge[i].sigma_mm / length_mm, kSmallestEdgeSigma));
     samples.indices.push_back(i);
   }
   samples.inflation = Inflation(samples.size(), arc_mm, photo.correlation_length_mm);

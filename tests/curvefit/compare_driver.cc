@@ -7,6 +7,7 @@
 // method.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <iostream>
@@ -69,21 +70,37 @@ Curve WithChosenKnots(const Job& job) {
   return AsCurve(ChooseKnots(job.points, request).spline);
 }
 
-// The whole fit of a photograph whose pose is known, both families, bands and tests included.
+// y of the fitted edge at x, both in the photograph: the scissors lie turned and shifted in it a
+// little.
+double InPhotograph(const BladeCurve& curve, const FittedPose& pose, double x) {
+  const double c = std::cos(pose.axis_rad), s = std::sin(pose.axis_rad);
+  double along = x, y = 0;
+  for (int step = 0; step < 4; ++step) {
+    const CurveSample sample = curve.Eval(along, pose.theta_rad);
+    const double error = pose.pivot_mm.x() + c * along - s * sample.phi_mm - x;
+    y = pose.pivot_mm.y() + s * along + c * sample.phi_mm;
+    along -= error / (c - s * sample.phi_x);
+  }
+  return y;
+}
+
+// The whole fit of one photograph with the same knots: pose, both families, covariance, tests of
+// the residuals.
 Curve WholeFit(const Job& job) {
   EdgePoints photo;
   photo.photo = "comparison";
-  for (const FlatPoint& p : job.points) {
-    photo.upper.push_back({{p.u, p.v}, {0, -1}, 1 / p.weight});
-  }
+  for (const FlatPoint& p : job.points) photo.upper.push_back({{p.u, p.v}, {0, -1}, 1 / p.weight});
   const FlatPoint& end = job.points.back();
   photo.upper_end.point_mm = {end.u, end.v};
-  photo.lower_end.point_mm = {end.u, -end.v};
-  photo.theta_given = true;  // frames stay as they are: at theta 0 both blades lie along the axis
-  photo.theta_rad = 0;
-  photo.theta_sigma_rad = 1e-9;
-  const BladeCurve curve = FitBlade({photo}).recommended.curve;
-  return [curve](double u) { return curve.Eval(u, 0).phi_mm; };
+  photo.lower_end.point_mm = {end.u, end.v - 20};
+  for (LocatedPoint* p : {&photo.upper_end, &photo.lower_end}) p->covariance_mm2.setIdentity();
+  FitOptions options;
+  options.degree = 3;
+  options.knots_mm = job.knots;
+  const BladeFit fit = FitBlade({photo}, options);
+  return [curve = fit.recommended.curve, pose = fit.poses[0]](double x) {
+    return InPhotograph(curve, pose, x);
+  };
 }
 
 void Report(const char* name, const Job& job, Curve (*method)(const Job&)) {

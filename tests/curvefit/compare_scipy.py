@@ -7,8 +7,9 @@ usage: compare_scipy.py COMPARE_DRIVER [--draws N]
 
 Points of a known edge with Gaussian noise; the error is the rms distance from the known edge, mean of the draws. Times are
 the best of 15 calls, the call alone. given-knots is compared with make_lsq_spline on the same knots, chosen-knots with
-make_smoothing_spline and splrep, whole-fit (orthogonal, robust, both families, covariance) with odr.
+make_smoothing_spline and splrep, whole-fit (orthogonal, robust, both families, covariance; same knots) with odr.
 Exits with 77 (skipped) if scipy is missing, with 1 if ours is less accurate or not 5 times as fast as its counterpart.
+whole-fit knows its pose only roughly and does two families where odr does one curve.
 """
 import argparse
 import subprocess
