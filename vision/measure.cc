@@ -359,10 +359,11 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.edges.theta_sigma_rad = result.theta_sigma_rad;
   result.edges.theta_given = options.hints.theta_rad.has_value();
   for (const LocatedEdgePoint& p : upper.used)
-    result.upper_edge_px.push_back(photo.DisplayedFromStored(p.point_px));
+    result.upper_edge_px.push_back(photo.DisplayedFromStored(p.trend_px));
   for (const LocatedEdgePoint& p : lower.used)
-    result.lower_edge_px.push_back(photo.DisplayedFromStored(p.point_px));
-  for (const EdgePoint& p : result.edges.upper) result.upper_edge_mm.push_back(p.point_mm);
+    result.lower_edge_px.push_back(photo.DisplayedFromStored(p.trend_px));
+  for (const LocatedEdgePoint& p : upper.used)
+    result.upper_edge_mm.push_back(frame.FromImage(p.trend_px));
   result.upper_edge_sigma_px = std::hypot(MedianSigma(upper.used), upper.edge.common_sigma_px);
   result.upper_end_px = photo.DisplayedFromStored(upper.end.point_px);
   result.lower_end_px = photo.DisplayedFromStored(lower.end.point_px);
