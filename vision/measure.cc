@@ -95,9 +95,32 @@ bool BetterBorder(const LocatedEdge& candidate, const LocatedEdge& best) {
   return Outside(best, candidate) > kSameEdge;
 }
 
+// The edge as scene finding traced it, for want of a better one: good to a pixel of the small
+// picture, and marked as doubtful.
+LocatedEdge AsTraced(const Scene& scene, const SceneBlade& blade, bool left) {
+  LocatedEdge edge;
+  const std::vector<Vector2d>& path = blade.inner_px;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Vector2d along =
+        (path[std::min(i + 3, path.size() - 1)] - path[i < 3 ? 0 : i - 3]).normalized();
+    LocatedEdgePoint point;
+    point.point_px = path[i];
+    point.trend_px = path[i];
+    point.normal = (left ? -1.0 : 1.0) * Vector2d(along.y(), -along.x());
+    point.sigma_px = 2 * scene.path_sigma_px;
+    edge.points.push_back(point);
+  }
+  edge.correlation_px = 10 * scene.path_sigma_px;
+  edge.common_sigma_px = 2 * scene.path_sigma_px;
+  edge.ambiguity = 1;
+  return edge;
+}
+
+// Throws Refused if the edge is `needed` and not to be found.
 // Near the trace first; where that is not clear, as far as a shadow or a bevel may have led it
 // astray.
-LocatedBlade Locate(const Photo& photo, const ToneCurve& tone, const Scene& scene, bool left) {
+LocatedBlade Locate(
+    const Photo& photo, const ToneCurve& tone, const Scene& scene, bool left, bool needed) {
   const SceneBlade& blade = left ? scene.left : scene.right;
   EdgeGuess guess;
   guess.path_px = blade.inner_px;
@@ -116,7 +139,8 @@ LocatedBlade Locate(const Photo& photo, const ToneCurve& tone, const Scene& scen
       why = refused;
     }
   }
-  if (!found) throw *why;
+  if (!found && needed) throw *why;
+  if (!found) located.edge = AsTraced(scene, blade, left);
   return located;
 }
 
@@ -322,8 +346,8 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
 
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  LocatedBlade upper = Locate(photo, scale.tone, scene, upper_on_left);
-  LocatedBlade lower = Locate(photo, scale.tone, scene, !upper_on_left);
+  LocatedBlade upper = Locate(photo, scale.tone, scene, upper_on_left, true);
+  LocatedBlade lower = Locate(photo, scale.tone, scene, !upper_on_left, false);
   Trim(photo, scene, &upper);
   Trim(photo, scene, &lower);
   log.Ran("edges", "full resolution along the blades only");

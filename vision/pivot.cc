@@ -58,9 +58,9 @@ Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
 }
 
 // The head stands above the plane of the edges: seen a little from the side it is not where the
-// axis is. Heads are about a tenth of the shank's width high, views about ten degrees off.
+// axis is. Heads are about a tenth of the shank's width high, views about five degrees off.
 Eigen::Matrix2d HeadParallax(const Scene& scene) {
-  const double sigma = 0.1 * scene.shank_width_px * std::tan(10 * std::numbers::pi / 180);
+  const double sigma = 0.1 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
   return sigma * sigma * Eigen::Matrix2d::Identity();
 }
 
