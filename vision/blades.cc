@@ -327,10 +327,8 @@ void PlacePivot(const cv::Mat& filled, BladePair* pair) {
   // On scissors with a known screw the waist is off by 7 % of the overlap, rms; more where a shaped
   // joint moves it away from the middle.
   const Vector2d middle = 0.5 * (pair->crotch + back);
-  pair->pivot_sigma = std::max({0.1 * narrowest,
-                                0.07 * overlap.norm(),
-                                std::sqrt(spread / sum),
-                                0.5 * (mean - middle).norm()});
+  pair->pivot_sigma = std::max(
+      {0.1 * narrowest, 0.07 * overlap.norm(), std::sqrt(spread / sum), (mean - middle).norm()});
 }
 
 // The part of a blade's far side that faces the tip: from the tip back to beside the crotch.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -58,18 +59,22 @@ Vector2d PointOf(const Json& point) {
   return {point.at(0).get<double>(), point.at(1).get<double>()};
 }
 
-// The same scissors in another file: the pose differs by less than its stated uncertainty, which
-// covers more than what a new encoding of the same picture changes.
+// The same scissors in another file: other rounding and compression are other noise, so the poses
+// differ by no more than three of their joint stated uncertainties.
 void ExpectSameMeasurement(const Json& a, const Json& b) {
+  constexpr double kSigmas = 3;
   ASSERT_TRUE(a.contains("photos") && b.contains("photos"));
   const Json &photo_a = a["photos"][0], &photo_b = b["photos"][0];
   EXPECT_EQ(photo_a["width"], photo_b["width"]);
   EXPECT_EQ(photo_a["height"], photo_b["height"]);
+  const auto joint = [&](const char* sigma) {
+    return std::hypot(photo_a[sigma].get<double>(), photo_b[sigma].get<double>());
+  };
   EXPECT_LT((PointOf(photo_a["pivot_px"]) - PointOf(photo_b["pivot_px"])).norm(),
-            photo_a["pivot_sigma_px"].get<double>());
+            kSigmas * joint("pivot_sigma_px"));
   EXPECT_NEAR(photo_a["theta_rad"].get<double>(),
               photo_b["theta_rad"].get<double>(),
-              photo_a["theta_sigma_rad"].get<double>());
+              kSigmas * joint("theta_sigma_rad"));
 }
 
 TEST(Fit, WritesTheCurveAndItsPicture) {
@@ -194,13 +199,16 @@ TEST(Fit, EveryPixelFormatGivesTheSameScissors) {
   }
 }
 
-// 216 colours without dithering shift an edge by a fraction of a pixel, not the scissors.
-TEST(Fit, PaletteAndCmykGiveTheSameScissors) {
+TEST(Fit, PaletteAndCmykGiveTheSameScissorsOrADoubt) {
   const fs::path folder = TestFolder();
   const cv::Mat& picture = PhotoFromAbove().bgr;
   const Json reference = MustFitFile(folder, "rgb.png", PngFile(picture, PngKind::kRgb8));
-  ExpectSameMeasurement(reference,
-                        MustFitFile(folder, "palette.png", PngFile(picture, PngKind::kPalette)));
+  const Json palette = MustFitFile(folder, "palette.png", PngFile(picture, PngKind::kPalette));
+  // So few colours may swallow the screw's rim; then the result has to say so.
+  const Json& doubts = palette["warnings"];
+  if (std::find(doubts.begin(), doubts.end(), "pivot_not_seen") == doubts.end()) {
+    ExpectSameMeasurement(reference, palette);
+  }
   std::vector<cv::Mat> channels;
   cv::split(picture, channels);
   cv::Mat inks;  // C = 1 - R and so on, no black ink
