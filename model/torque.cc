@@ -23,6 +23,7 @@ TorqueModel::TorqueModel(BladeCurve blade, Material material, PlateSpan span, To
     : blade_(std::move(blade)), material_(std::move(material)), span_(span), options_(options) {
   CheckMaterial(material_);
   CheckPlateSpan(span_);
+  CheckFluctuation(options_.fluctuation);
   if (!(options_.longest_step_s > 0)) {
     throw std::invalid_argument("torque: longest_step_s is " +
                                 std::to_string(options_.longest_step_s) + ", must be positive");
@@ -50,7 +51,7 @@ TorqueSample TorqueModel::Step(double theta_rad, double pivot_mm, double dt_s) n
   const MotionPath path = state_.started
                               ? MotionPath{state_.theta_rad, state_.pivot_mm, theta_rad, pivot_mm}
                               : MotionPath{theta_rad, pivot_mm, theta_rad, pivot_mm};
-  TorqueStep(blade_, material_, span_.end_mm, options_.delta_policy, path, state_, events_).Run();
+  TorqueStep(blade_, material_, span_.end_mm, options_, path, state_, events_).Run();
   if (!IsSafe(state_.output)) {
     state_ = before;
     return Unsafe(kTorqueBadInput);

@@ -100,7 +100,8 @@ void TorqueStep::StartCutting(double s) noexcept {
 // in it.
 void TorqueStep::StopCutting(double s) noexcept {
   const bool overloaded = CuttingLevel(state_.tip, material_).value > 0;
-  if (policy_ == DeltaPolicy::kConstant && state_.mode == CutMode::kCutting && overloaded) {
+  if (options_.delta_policy == DeltaPolicy::kConstant && state_.mode == CutMode::kCutting &&
+      overloaded) {
     state_.mode = CutMode::kResting;
     return;
   }

@@ -33,13 +33,20 @@ double TorqueStep::TorqueNow() const noexcept {
     }
     case CutMode::kCutting:
     case CutMode::kResting:
-      return state_.tip.on_blade * state_.tip.cut_torque_nmm;
+      return state_.tip.on_blade * CuttingTorque();
     case CutMode::kStuck:
       return state_.valid_torque_nmm;
     case CutMode::kThrough:
       break;
   }
   return 0;
+}
+
+double TorqueStep::CuttingTorque() const noexcept {
+  const Fluctuation& fluctuation = options_.fluctuation;
+  if (fluctuation.rupture_mm == 0) return state_.tip.cut_torque_nmm;
+  return state_.tip.cut_torque_nmm *
+         FluctuatingShare(fluctuation, material_, state_.tip, state_.crack_mm);
 }
 
 void TorqueStep::Report() noexcept {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "model/crack_tip.h"
+#include "model/fluctuation.h"
 
 namespace bladecurve {
 
@@ -31,7 +32,8 @@ enum TorqueFlag : std::uint32_t {
 
 struct TorqueOptions {
   DeltaPolicy delta_policy = DeltaPolicy::kConstant;
-  double longest_step_s = 1.0;  // a longer pause leaves the path between the samples unknown
+  double longest_step_s = 1.0;   // a longer pause leaves the path between the samples unknown
+  Fluctuation fluctuation = {};  // of the torque while cutting; events and ledger tell the mean one
 };
 
 struct TorqueSample {
@@ -62,14 +64,12 @@ struct TorqueEvent {
   double torque_before_nmm = 0, torque_after_nmm = 0;
 };
 
-// Work audit. For constant delta and a pivot at rest, cut_work = J_c h cut_length exactly (eqs. 12,
-// 14).
+// Work audit. For constant delta and a pivot at rest, cut_work = J_c h cut_length exactly (12, 14).
 struct CutLedger {
-  double cut_work_nmm = 0;   // integral of -tau_c dtheta while the crack grows
-  double cut_length_mm = 0;  // what the crack grew by meanwhile
-  double pivot_advance_mm =
-      0;                  // what the pivot moved by meanwhile: slicing does no work against torque
-  double snapped_mm = 0;  // what the crack jumped at once, where the edge left no equilibrium
+  double cut_work_nmm = 0;      // integral of -tau_c dtheta while the crack grows
+  double cut_length_mm = 0;     // what the crack grew by meanwhile
+  double pivot_advance_mm = 0;  // what the pivot moved by then: no work against the torque
+  double snapped_mm = 0;        // what the crack jumped at once, for want of an equilibrium
 };
 
 // The events of one step. More than fit are left out; the state knows them all the same.

@@ -22,14 +22,14 @@ constexpr int kMostLegs = 16;
 TorqueStep::TorqueStep(const BladeCurve& blade,
                        const Material& material,
                        double plate_end_mm,
-                       DeltaPolicy policy,
+                       const TorqueOptions& options,
                        const MotionPath& path,
                        TorqueState& state,
                        EventLog& log) noexcept
     : blade_(blade),
       material_(material),
       plate_end_mm_(plate_end_mm),
-      policy_(policy),
+      options_(options),
       path_(path),
       dtheta_rad_(path.theta_end_rad - path.theta_rad),
       dpivot_mm_(path.pivot_end_mm - path.pivot_mm),
@@ -112,7 +112,7 @@ double TorqueStep::NextStop(double s, double tip_speed_mm) noexcept {
 
 // Zero while the crack grows, positive where it has yet to.
 Level TorqueStep::GrowthLevel(const CrackTip& tip) const noexcept {
-  if (policy_ == DeltaPolicy::kCriterion) return CuttingLevel(tip, material_);
+  if (options_.delta_policy == DeltaPolicy::kCriterion) return CuttingLevel(tip, material_);
   return {tip.delta_mm - state_.delta_c_mm, -tip.edge.phi_x, -tip.edge.phi_theta_mm_per_rad};
 }
 

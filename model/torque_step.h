@@ -24,7 +24,7 @@ class TorqueStep {
   TorqueStep(const BladeCurve& blade,
              const Material& material,
              double plate_end_mm,
-             DeltaPolicy policy,
+             const TorqueOptions& options,
              const MotionPath& path,
              TorqueState& state,
              EventLog& log) noexcept;
@@ -74,11 +74,12 @@ class TorqueStep {
   void Report() noexcept;
   [[nodiscard]] Phase ElasticPhase() const noexcept;
   [[nodiscard]] double TorqueNow() const noexcept;
+  [[nodiscard]] double CuttingTorque() const noexcept;
 
   const BladeCurve& blade_;
   const Material& material_;
   const double plate_end_mm_;
-  const DeltaPolicy policy_;
+  const TorqueOptions& options_;
   const MotionPath path_;
   const double dtheta_rad_, dpivot_mm_;
   const double strides_;  // that the motion takes at least

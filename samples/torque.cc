@@ -34,6 +34,7 @@ struct TorqueCommand {
   double rate_deg_per_s = 3;  // the paper's
   double rate_hz = 1000;      // a haptic loop's
   std::optional<double> x_edge_mm, x_end_mm, radius_mm;
+  Fluctuation fluctuation;
   bool quiet = false;
 };
 
@@ -87,6 +88,7 @@ TorqueOptions OptionsOf(const TorqueCommand& command) {
   options.delta_policy =
       command.policy == "criterion" ? DeltaPolicy::kCriterion : DeltaPolicy::kConstant;
   options.longest_step_s = std::numeric_limits<double>::infinity();  // a file tells its whole path
+  options.fluctuation = command.fluctuation;
   return options;
 }
 
@@ -154,6 +156,17 @@ void AddPlateFlags(CLI::App& sub, TorqueCommand& command) {
       "--friction", command.friction, "CSV of the empty scissors: theta_deg, closing_n, opening_n");
 }
 
+void AddFluctuationFlags(CLI::App& sub, Fluctuation& fluctuation) {
+  sub.add_option("--rupture-mm",
+                 fluctuation.rupture_mm,
+                 "the torque of cutting fluctuates: mean length of a rupture (default: none)");
+  sub.add_option("--rupture-spread",
+                 fluctuation.spread,
+                 "ruptures vary by up to this share of their mean, below 1")
+      ->capture_default_str();
+  sub.add_option("--seed", fluctuation.seed, "of the ruptures")->capture_default_str();
+}
+
 void AddMotionFlags(CLI::App& sub, TorqueCommand& command) {
   sub.add_option("--close-deg",
                  command.close_deg,
@@ -172,6 +185,7 @@ void AddTorque(CLI::App& app, int* exit_code) {
   CLI::App* sub = app.add_subcommand("torque", "Cut a plate and tell the torque.");
   AddPlateFlags(*sub, *command);
   AddMotionFlags(*sub, *command);
+  AddFluctuationFlags(*sub, command->fluctuation);
   sub->add_option("--csv", command->csv, "the curve as CSV; - for standard output");
   sub->add_option("--plot", command->plot, "the curve as a picture, FILE.svg");
   sub->add_flag("--quiet", command->quiet, "no summary");
