@@ -136,22 +136,39 @@ std::vector<double> HighestSteps(const StepMap& map) {
   return highest;
 }
 
+// The line most clearly seen, wherever it lies.
+StepLine ClearestLine(const Survey& survey, double search_px) {
+  return FindBestLine(survey.map,
+                      Scores(survey,
+                             [&](int station, int row) {
+                               return std::abs(survey.FromGuess(station, row)) <= search_px
+                                          ? survey.map.clear[survey.map.At(station, row)]
+                                          : kForbidden;
+                             }),
+                      kStiffBend);
+}
+
+// Of the clear lines about as far apart as bevel and shadow are wide, the outer one.
 StepLine OutermostLine(const Survey& survey, double search_px) {
   constexpr double kOutwards = 0.055;  // a px: of two clear lines the outer one is the border
+  constexpr double kMostApart = 8;     // px; lines further out are the background's own
   constexpr double kForHeight = 0.12;  // unless it is much the lower one and near
   const std::vector<double> highest = HighestSteps(survey.map);
+  const StepLine clearest = ClearestLine(survey, search_px);
   return FindBestLine(
       survey.map,
-      Scores(survey,
-             [&](int station, int row) {
-               const double across = survey.FromGuess(station, row);
-               if (std::abs(across) > search_px) return kForbidden;
-               const size_t at = survey.map.At(station, row);
-               const double height =
-                   std::min(std::abs(survey.map.height[at]) / highest[Index(station)], 1.0);
-               return survey.map.clear[at] *
-                      static_cast<float>(1 + kOutwards * across - kForHeight * (1 - height));
-             }),
+      Scores(
+          survey,
+          [&](int station, int row) {
+            if (std::abs(survey.FromGuess(station, row)) > search_px) return kForbidden;
+            const double outwards = std::clamp(
+                static_cast<double>(row - clearest.rows[Index(station)]), -kMostApart, kMostApart);
+            const size_t at = survey.map.At(station, row);
+            const double height =
+                std::min(std::abs(survey.map.height[at]) / highest[Index(station)], 1.0);
+            return survey.map.clear[at] *
+                   static_cast<float>(1 + kOutwards * outwards - kForHeight * (1 - height));
+          }),
       kStiffBend);
 }
 

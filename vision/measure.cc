@@ -66,35 +66,6 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
-// How far the second edge lies outside the first, px: median over every fourth point.
-double Outside(const LocatedEdge& first, const LocatedEdge& second) {
-  std::vector<double> offsets;
-  for (std::size_t i = 0; i < second.points.size(); i += 4) {
-    const Vector2d& p = second.points[i].point_px;
-    const auto nearest =
-        std::min_element(first.points.begin(),
-                         first.points.end(),
-                         [&](const LocatedEdgePoint& a, const LocatedEdgePoint& b) {
-                           return (a.point_px - p).squaredNorm() < (b.point_px - p).squaredNorm();
-                         });
-    offsets.push_back((p - nearest->point_px).dot(nearest->normal));
-  }
-  if (offsets.empty()) return 0;
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  return *middle;
-}
-
-// Of two borders: a shadow's is soft, and of two sharp ones the outer is the silhouette, bevels and
-// ridges lie within.
-bool BetterBorder(const LocatedEdge& candidate, const LocatedEdge& best) {
-  constexpr double kSofter = 1.6;  // ratio of the blurs that tells a shadow from metal
-  constexpr double kSameEdge = 1;  // px
-  if (candidate.blur_px > kSofter * best.blur_px) return false;
-  if (best.blur_px > kSofter * candidate.blur_px) return true;
-  return Outside(best, candidate) > kSameEdge;
-}
-
 // The edge as scene finding traced it, for want of a better one: good to a pixel of the small
 // picture, and marked as doubtful.
 LocatedEdge AsTraced(const Scene& scene, const SceneBlade& blade, bool left) {
@@ -117,30 +88,22 @@ LocatedEdge AsTraced(const Scene& scene, const SceneBlade& blade, bool left) {
 }
 
 // Throws Refused if the edge is `needed` and not to be found.
-// Near the trace first; where that is not clear, as far as a shadow or a bevel may have led it
-// astray.
 LocatedBlade Locate(
     const Photo& photo, const ToneCurve& tone, const Scene& scene, bool left, bool needed) {
+  constexpr double kFarthest = 0.2;  // of the blade's width: a shadow or a bevel led the trace astray
   const SceneBlade& blade = left ? scene.left : scene.right;
   EdgeGuess guess;
   guess.path_px = blade.inner_px;
   guess.blade_on_left = left;
+  guess.search_px = std::max(5.0, 1.5 * scene.path_sigma_px + kFarthest * blade.width_px);
   LocatedBlade located;
   located.on_left = left;
-  bool found = false;
-  std::optional<Refused> why;
-  for (const double share_of_width : {0.08, 0.14, 0.2}) {
-    guess.search_px = std::max(5.0, 1.5 * scene.path_sigma_px + share_of_width * blade.width_px);
-    try {
-      LocatedEdge edge = LocateEdge(photo.grey(), tone, guess);
-      if (!found || BetterBorder(edge, located.edge)) located.edge = std::move(edge);
-      found = true;
-    } catch (const Refused& refused) {
-      why = refused;
-    }
+  try {
+    located.edge = LocateEdge(photo.grey(), tone, guess);
+  } catch (const Refused&) {
+    if (needed) throw;
+    located.edge = AsTraced(scene, blade, left);
   }
-  if (!found && needed) throw *why;
-  if (!found) located.edge = AsTraced(scene, blade, left);
   return located;
 }
 
@@ -354,7 +317,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const LocatedBlade& left = upper_on_left ? upper : lower;
   const LocatedBlade& right = upper_on_left ? lower : upper;
   const Pivot pivot = FindPivot(
-      photo.grey(), scale.tone, scene, {PointsOf(left.used), PointsOf(right.used)}, hints.pivot_px);
+      photo.grey(), scale, {scene, {PointsOf(left.used), PointsOf(right.used)}, hints.pivot_px});
   RefuseOutOfPlane(pivot);
   log.Ran("pivot", pivot.source);
 
