@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curvefit/spline_shape.h"
 #include "curvefit/statistics.h"
 
 namespace bladecurve {
@@ -27,7 +28,8 @@ class ShapeRows {
   ShapeRows(const JointModel& model, const JointState& state)
       : table_(model.space.value_or(ClampedSpace(1, 0, 1, {}))), is_spline_(model.space) {
     if (is_spline_) {
-      c_ = CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
+      const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
+      c_ = CoefficientsOf(*model.space, state.shape.data(), end).value;
     }
     columns_ = is_spline_ ? model.space->size() : 2;
   }

@@ -7,6 +7,8 @@
 
 #include "curvefit/diagnostics.h"
 #include "curvefit/linear_spline.h"
+#include "curvefit/spline_frame.h"
+#include "curvefit/spline_shape.h"
 #include "curvefit/statistics.h"
 #include "vision/refused.h"
 
@@ -181,15 +183,30 @@ RigidSpline InMm(const SplineSpace& space, const Eigen::VectorXd& coefficients, 
   return spline;
 }
 
-// From the fit's free parameters to the spline's coefficients, mm^2.
+// From the fit's parameters to the spline's coefficients, mm^2. The first photograph's pose counts,
+// because the blade's frame goes with it.
 Eigen::MatrixXd SplineCovariance(const JointEstimate& joint,
-                                 const SplineCoefficients& c,
+                                 const SplineSpace& space,
+                                 const JointState& state,
                                  bool zero_is_free,
                                  double length_mm) {
-  const Eigen::Index columns = joint.shape_columns + 1 + (zero_is_free ? 1 : 0);
-  const Eigen::MatrixXd map = c.jacobian.leftCols(columns);
-  return length_mm * length_mm * map * joint.estimate.covariance.topLeftCorner(columns, columns) *
-         map.transpose();
+  const double reach = state.reaches[0], zero = state.zeros[0];
+  const Eigen::Vector2d end = EndInBlade(reach, zero);
+  const SplineCoefficients c = CoefficientsOf(space, state.shape.data(), end);
+  const PlacedPoint placed = PlacePoint(state.poses[0], state.poses[0].data(), end);
+  const Eigen::MatrixXd by_end = c.jacobian.rightCols(2);
+  const Eigen::MatrixXd by_ends = by_end * EndJacobian(reach, zero);
+  const Eigen::MatrixXd by_pose =
+      by_end * placed.by_first + FrameJacobian(space, c.value, state.poses[0]);
+
+  const int n = space.size();
+  Eigen::MatrixXd map = Eigen::MatrixXd::Zero(n, joint.estimate.covariance.cols());
+  map.leftCols(n - 1) = c.jacobian.leftCols(n - 1);
+  map.col(n - 1) = by_ends.col(0);
+  if (zero_is_free) map.col(n) = by_ends.col(1);
+  constexpr std::array<int, 4> kOfFirst = {kPivotX, kPivotY, kUpperAngle, kScale};
+  for (int k = 0; k < 4; ++k) map.col(joint.first_pose + kOfFirst[k]) = by_pose.col(k);
+  return length_mm * length_mm * map * joint.estimate.covariance * map.transpose();
 }
 
 JointState TaperedStart(const FitData& data, double gain) {
@@ -225,14 +242,14 @@ FamilyFit FitSpline(const FamilyInput& input,
   const JointState& state = attempt.result.state;
   const JointEstimate joint = EstimateJointly(attempt.data, model, state);
   const SplineCoefficients c =
-      CoefficientsOf(space, state.shape.data(), state.reaches[0], state.zeros[0]);
+      CoefficientsOf(space, state.shape.data(), EndInBlade(state.reaches[0], state.zeros[0]));
   const double length_mm = attempt.data.length_mm;
   constexpr double kRunaway = 100;  // blade lengths off the axis: the minimiser lost the edge
   if (!c.value.allFinite() || c.value.cwiseAbs().maxCoeff() > kRunaway) {
     throw Refused(Reason::kFitFailed, "fit: the spline ran away; " + fit.termination);
   }
   fit.curve = BladeCurve(InMm(space, c.value, length_mm), input.domain);
-  fit.covariance = SplineCovariance(joint, c, attempt.data.theta_given(), length_mm);
+  fit.covariance = SplineCovariance(joint, space, state, attempt.data.theta_given(), length_mm);
   std::vector<std::string> free_names;
   for (int j = 0; j < space.size(); ++j) {
     fit.parameter_names.push_back(std::string("c").append(std::to_string(j)).append("_mm"));

@@ -36,6 +36,7 @@ struct FittedPose {
   double axis_rad = 0;  // of +x, in the frame of the EdgePoints
   double theta_rad = 0;
   double pivot_sigma_mm = 0, axis_sigma_rad = 0, theta_sigma_rad = 0;
+  Eigen::Matrix2d pivot_covariance_mm2 = Eigen::Matrix2d::Zero();  // in the frame of the EdgePoints
   double scale_relative = 0;  // the photograph's lengths times 1 + this are mm
   double offset_mm = 0;       // of its edges along their normals, out of the blades
   double rms_mm = 0;          // of the upper edge

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,9 +18,9 @@ namespace {
 // Nothing is known better than this fraction of the blade's length: keeps exact observations (sigma
 // 0) solvable.
 constexpr double kSmallestSigma = 1e-9;
-// Edge points are not believed to more than this part of the blade's length, 0.1 um for common
-// scissors: beyond that the weights of points and of poses no longer fit into one double, and no
-// photograph comes near.
+// Edge points and distal ends are not believed to more than this part of the blade's length, 0.1 um
+// for common scissors: beyond that the weights of points and of poses no longer fit into one
+// double, and no photograph comes near.
 constexpr double kSmallestEdgeSigma = 2e-6;
 // A theta given without sigma: a protractor read to half a degree.
 constexpr double kGivenThetaSigma = 0.5 * std::numbers::pi / 180;
@@ -80,12 +81,10 @@ double Reach(const EdgePoints& photo) {
   return end > kNoEnd * farthest ? end : farthest;
 }
 
-// Cholesky factor of the information: L^T with L L^T = covariance^-1, sigma not below the floor.
-Eigen::Matrix2d Whitener(const Eigen::Matrix2d& covariance_mm2, double length_mm) {
-  const Eigen::Matrix2d floor = Eigen::Matrix2d::Identity() * (kSmallestSigma * kSmallestSigma);
-  const Eigen::Matrix2d covariance = covariance_mm2 / (length_mm * length_mm) + floor;
-  const Eigen::LLT<Eigen::Matrix2d> llt(covariance);
-  return llt.matrixL().solve(Eigen::Matrix2d::Identity());
+// L with L L^T = covariance, sigma not below the smallest.
+Eigen::Matrix2d Root(const Eigen::Matrix2d& covariance_mm2, double length_mm, double smallest) {
+  const Eigen::Matrix2d floor = Eigen::Matrix2d::Identity() * (smallest * smallest);
+  return Eigen::LLT<Eigen::Matrix2d>(covariance_mm2 / (length_mm * length_mm) + floor).matrixL();
 }
 
 void CheckCovariance(const EdgePoints& photo, const Eigen::Matrix2d& covariance) {
@@ -151,16 +150,14 @@ void SetUpperEnd(const EdgePoints& photo, double length_mm, PhotoData& data) {
     data.upper_end = data.upper.points.back();
     covariance = Eigen::Matrix2d::Identity() * std::pow(0.02 * length_mm, 2);
   }
-  data.upper_end_whitener = Whitener(covariance, length_mm);
+  data.upper_end_whitener = Root(covariance, length_mm, kSmallestEdgeSigma).inverse();
 }
 
 void SetLowerEnd(const EdgePoints& photo, double length_mm, PhotoData& data) {
   const Eigen::Vector2d end = (photo.lower_end.point_mm - photo.pivot.point_mm) / length_mm;
   if (end.norm() * length_mm <= kNoEnd * FarthestReach(photo)) return;
   data.lower_end = end;
-  const Eigen::Vector2d across = Eigen::Vector2d(-end.y(), end.x()).normalized();
-  const double variance = across.dot(photo.lower_end.covariance_mm2 * across);
-  data.lower_end_weight = WeightOf(std::sqrt(std::max(variance, 0.0)) / length_mm);
+  data.lower_end_root = Root(photo.lower_end.covariance_mm2, length_mm, kSmallestEdgeSigma);
 }
 
 // theta_rad that came from the ends says nothing beyond them, unless the lower end is missing.
@@ -202,7 +199,7 @@ PhotoData Prepare(const EdgePoints& photo, double length_mm) {
     const double angle = data.start[kLowerAngle];
     data.lower = ScaledEdge(photo, photo.lower, {std::cos(angle), std::sin(angle)}, length_mm);
   }
-  data.pivot_whitener = Whitener(photo.pivot.covariance_mm2, length_mm);
+  data.pivot_whitener = Root(photo.pivot.covariance_mm2, length_mm, kSmallestSigma).inverse();
   data.scale_weight = WeightOf(photo.scale_relative_sigma);
   data.offset_weight = WeightOf(photo.common_offset_sigma_mm / length_mm);
   return data;

@@ -40,8 +40,8 @@ struct PhotoData {
   Eigen::Vector2d upper_end;
   Eigen::Matrix2d upper_end_whitener;
   std::optional<Eigen::Vector2d> lower_end;
-  double lower_end_weight = 0;  // 1/sigma across the ray to it
-  std::optional<double> theta;  // rad; observed by other means than the ends
+  Eigen::Matrix2d lower_end_root;  // times its transpose: the covariance
+  std::optional<double> theta;     // rad; observed by other means than the ends
   double theta_weight = 0;
   bool theta_given = false;
   double scale_weight = 0, offset_weight = 0;

@@ -10,11 +10,15 @@
 #include <memory>
 #include <numbers>
 
+#include "curvefit/spline_frame.h"
+#include "curvefit/spline_shape.h"
+
 namespace bladecurve {
 namespace {
 
 Eigen::VectorXd SplineCoefficientsOf(const JointModel& model, const JointState& state) {
-  return CoefficientsOf(*model.space, state.shape.data(), state.reaches[0], state.zeros[0]).value;
+  const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
+  return CoefficientsOf(*model.space, state.shape.data(), end).value;
 }
 
 // Reaches, then zeros: those that the model has.
@@ -40,11 +44,14 @@ std::unique_ptr<ceres::Problem> NewProblem(const FitData& data,
     double* reach = &state.reaches[model.space ? 0 : p];
     double* zero = &state.zeros[model.space ? 0 : p];
     if (model.space) {
-      const SplineEdgesStart start{SplineCoefficientsOf(model, state), state.poses[p]};
+      SplineEdgesStart start{SplineCoefficientsOf(model, state), state.poses[0], std::nullopt};
+      std::vector<double*> blocks = {state.shape.data(), reach, zero, state.poses[0].data()};
+      if (p > 0) {
+        start.own_pose = state.poses[p];
+        blocks.push_back(pose);
+      }
       problem->AddResidualBlock(
-          NewSplineEdges(photo, *model.space, model.loss, model.mirror[p], start),
-          nullptr,
-          {state.shape.data(), reach, zero, pose});
+          NewSplineEdges(photo, *model.space, model.loss, model.mirror[p], start), nullptr, blocks);
     } else {
       problem->AddResidualBlock(NewTaperedEdges(photo, model.mirror[p]),
                                 nullptr,
@@ -61,14 +68,42 @@ std::unique_ptr<ceres::Problem> NewProblem(const FitData& data,
   return problem;
 }
 
+// The spline that was fitted where it lay at the start, as the fitted blade's frame has it. Returns
+// how far the frame moved.
+double MoveIntoBladeFrame(const SplineSpace& space, const Pose& held, JointState& state) {
+  const double* first_pose = state.poses[0].data();
+  const BladeMotion motion = MotionFrom(held, first_pose);
+  const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
+  const Eigen::VectorXd fitted =
+      CoefficientsOf(space, state.shape.data(), PlacePoint(held, first_pose, end).point).value;
+  state.shape = FreeCoefficients(space, InBladeFrame(space, fitted, motion));
+  return motion.shift.norm() + std::abs(motion.turn) + std::abs(motion.growth - 1);
+}
+
+// A minimisation that went on where the last one ended.
+void Append(MinimizerReport next, MinimizerReport& report) {
+  next.iterations += report.iterations;
+  for (IterationRecord& step : next.trace) step.iteration += report.iterations;
+  next.trace.insert(next.trace.begin(), report.trace.begin(), report.trace.end());
+  report = std::move(next);
+}
+
 bool HasGain(const JointModel& model) { return !model.space && model.free_gain; }
 
 }  // namespace
 
 JointResult SolveJointly(const FitData& data, const JointModel& model, JointState start) {
   JointResult result{std::move(start), {}};
-  const std::unique_ptr<ceres::Problem> problem = NewProblem(data, model, result.state);
-  result.minimizer = Minimize(*problem);
+  constexpr double kSettled = 1e-9;  // of the blade's length, or rad
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    const Pose held = result.state.poses[0];
+    const std::unique_ptr<ceres::Problem> problem = NewProblem(data, model, result.state);
+    Append(Minimize(*problem), result.minimizer);
+    if (!model.space) break;
+    const double moved = MoveIntoBladeFrame(*model.space, held, result.state);
+    if (!result.minimizer.converged || moved < kSettled) break;
+  }
   return result;
 }
 
@@ -100,8 +135,7 @@ JointState StartingState(const FitData& data) {
 
 JointState SplineStart(const FitData& data, const LinearSpline& spline) {
   JointState start = StartingState(data);
-  start.shape =
-      ParametersOf(spline.space, spline.coefficients, start.reaches[0], start.zeros[0]).free;
+  start.shape = FreeCoefficients(spline.space, spline.coefficients);
   return start;
 }
 
@@ -175,7 +209,8 @@ std::vector<FittedPose> PosesInMm(const FitData& data,
                                                   Eigen::Vector2d(pose[kPivotX], pose[kPivotY]);
     out.axis_rad = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
     out.theta_rad = pose[kUpperAngle] - pose[kLowerAngle];
-    out.pivot_sigma_mm = data.length_mm * std::sqrt((c(0, 0) + c(1, 1)) / 2);
+    out.pivot_covariance_mm2 = data.length_mm * data.length_mm * c.topLeftCorner<2, 2>();
+    out.pivot_sigma_mm = std::sqrt(out.pivot_covariance_mm2.trace() / 2);
     out.axis_sigma_rad = std::sqrt(std::max(0.0, sum + cross)) / 2;
     out.theta_sigma_rad = std::sqrt(std::max(0.0, sum - cross));
     out.scale_relative = pose[kScale];

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "curvefit/bspline.h"
 #include "curvefit/fit_data.h"
@@ -27,45 +27,9 @@ struct SoftResidual {
 };
 [[nodiscard]] SoftResidual Soften(Loss loss, double residual);
 
-// Signed orthogonal distance of a point from the edge v = s(u), and its derivatives. To first order
-// in the distance, d = (v - s) cos, cos = 1/sqrt(1 + s'^2); the next term is d^2 s''/2, 1e-5 mm for
-// d = 0.05 mm and a radius of 100 mm.
-struct SplineDistance {
-  double d = 0;
-  double d_u = 0, d_v = 0;
-  std::array<double, kMaxSplineDegree + 1> d_c{};  // by coefficients first, first + 1, ...
-  int first = 0;
-};
-// Of the point (u, v); `row` holds the basis functions at u.
-[[nodiscard]] SplineDistance DistanceFrom(
-    const BasisRow& row, int degree, const double* coefficients, double v, double cosine);
-
-// s' at the place of the row.
-[[nodiscard]] double SlopeAt(const BasisRow& row, int degree, const double* coefficients);
-
-// The spline's coefficients from the parameters of the fit, which keep s(u_end) = -u_end
-// tan(zero/2): all but the last coefficient of a spline T, the reach u_end, and the opening that
-// the user's theta has where ours is 0.
-//   s(u) = T(u) - u (T(u_end)/u_end + tan(zero/2)),  T's last coefficient 0
-struct SplineParameters {
-  std::vector<double> free;
-  double reach = 1, zero = 0;
-};
-struct SplineCoefficients {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd jacobian;  // by free, reach, zero
-};
-[[nodiscard]] SplineCoefficients CoefficientsOf(const SplineSpace& space,
-                                                const double* free,
-                                                double reach,
-                                                double zero);
-[[nodiscard]] SplineParameters ParametersOf(const SplineSpace& space,
-                                            const Eigen::VectorXd& coefficients,
-                                            double reach,
-                                            double zero);
-
 // Residuals of the edges of one photograph against the shared spline; parameter blocks: free
-// coefficients, reach, zero, pose. Thousands of points are condensed to as many residuals as there
+// coefficients, reach, zero, pose of the first photograph, and its own pose if it is another one.
+// Thousands of points are condensed to as many residuals as there
 // are parameters, and one more for what no parameter can change: same cost, same gradient, same
 // Gauss-Newton matrix. The lower edge is used if `mirror`.
 // The edge's direction in the photograph at each point is held as it is at `start`: were it free, a
@@ -74,7 +38,8 @@ struct SplineCoefficients {
 // Distances are counted in the photograph's own lengths, else they would shrink with its scale.
 struct SplineEdgesStart {
   Eigen::VectorXd coefficients;
-  Pose pose;
+  Pose first_pose;               // held: where the spline lies, see spline_frame.h
+  std::optional<Pose> own_pose;  // not set: this is the first photograph
 };
 [[nodiscard]] ceres::CostFunction* NewSplineEdges(const PhotoData& photo,
                                                   const SplineSpace& space,

@@ -31,14 +31,17 @@ struct PoseObservations {
            (FromPivot(photo.upper_end, pose) - Vector2<T>(c * reach - s * v, s * reach + c * v));
   }
 
-  // How far the lower end lies from its ray, wherever on it: the blades may differ in length.
+  // How far the lower end lies from its ray, wherever on it: the blades may differ in length. In
+  // sigmas across the ray as it now runs; held sigmas would have the pivot move to where the ray
+  // passes both ends, however far apart these are along the edge.
   template <typename T>
   T LowerEnd(const T& zero, const T* pose) const {
-    using std::cos, std::sin;
+    using std::cos, std::sin, std::sqrt;
     if (!photo.lower_end) return T(0);
     const T ray = pose[kLowerAngle] + T(0.5) * zero;
-    return photo.lower_end_weight *
-           FromPivot(*photo.lower_end, pose).dot(Vector2<T>(-sin(ray), cos(ray)));
+    const Vector2<T> across(-sin(ray), cos(ray));
+    const Vector2<T> spread = photo.lower_end_root.transpose().cast<T>() * across;
+    return FromPivot(*photo.lower_end, pose).dot(across) / sqrt(spread.squaredNorm());
   }
 
   template <typename T>

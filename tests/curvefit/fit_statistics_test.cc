@@ -87,6 +87,32 @@ TEST(FitStatistics, StatedSigmasHoldForThreePhotographs) {
   ExpectHonest(Draw(CurvedScissors(), photos, kDraws));
 }
 
+// What edges cannot say: how far along the symmetry line the pivot is. With knots between the
+// pieces of the spline, which must not tie it to the edge.
+TEST(FitStatistics, PivotThatIsHardlySeenStaysAsUncertain) {
+  SimulatedPhoto photo;
+  photo.pivot_sigma_mm = 0.3;
+  photo.pivot_along_sigma_mm = 3;
+  for (const TrueScissors& scissors : {CurvedScissors(), SplineScissors(3, {30, 42})}) {
+    double pivot = 0, theta = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      Noise noise(9000 + draw);
+      const EdgePoints seen = Photograph(scissors, photo, noise);
+      const FittedPose pose = FitBlade({seen}).poses.front();
+      const double said = pose.pivot_covariance_mm2(0, 0) / seen.pivot.covariance_mm2(0, 0);
+      ASSERT_GT(said, 0.9) << "the fit claims to have found the pivot, draw " << draw;
+      constexpr double kHalfWidth = 1.96;  // of the 95 % interval, in sigma
+      const double off_mm = pose.pivot_mm.x() - photo.pivot_mm.x();
+      pivot += std::abs(off_mm) < kHalfWidth * std::sqrt(pose.pivot_covariance_mm2(0, 0));
+      theta += std::abs(pose.theta_rad - photo.theta_rad) < kHalfWidth * pose.theta_sigma_rad;
+    }
+    EXPECT_GT(pivot / kDraws, 0.93);
+    EXPECT_LT(pivot / kDraws, 0.97);
+    EXPECT_GT(theta / kDraws, 0.93);
+    EXPECT_LT(theta / kDraws, 0.97);
+  }
+}
+
 // sigma of phi in the middle of the edge.
 double SigmaOf(const std::vector<EdgePoints>& photos) {
   return CurveBand(FitBlade(photos).recommended).At(35, 0.5).phi_mm;

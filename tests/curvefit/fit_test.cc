@@ -120,8 +120,8 @@ TEST(FitBlade, GivenThetaIsTheThetaOfTheCurve) {
   const BladeFit fit = FitBlade({edges});
   EXPECT_NEAR(fit.poses[0].theta_rad, 0.5 + zero, 1e-6);
   EXPECT_EQ(fit.theta_definition, "given");
-  // The curve at the user's theta is the edge as it was seen, but for what a cubic that is turned by zero/2 is no
-  // cubic over u any more.
+  // The curve at the user's theta is the edge as it was seen, but for what a cubic that is turned
+  // by zero/2 is no cubic over u any more.
   const BladeCurve truth = TrueCurve(CurvedScissors());
   for (const double x : {15.0, 30.0, 45.0}) {
     EXPECT_NEAR(fit.recommended.curve.Eval(x, 0.5 + zero).phi_mm, truth.Eval(x, 0.5).phi_mm, 1e-4);

@@ -84,9 +84,19 @@ LocatedPoint SeenEnd(const TrueScissors& scissors, const Exposure& e, double sid
   end.covariance_mm2 =
       photo.end_along_sigma_mm * photo.end_along_sigma_mm * along * along.transpose() +
       photo.sigma_mm * photo.sigma_mm * across * across.transpose();
+  const double off_along = photo.end_along_sigma_mm * e.noise.Gaussian();
+  const double off_across = photo.sigma_mm * e.noise.Gaussian();
   end.point_mm = e.Seen({t.point.x(), side * t.point.y()}) +
-                 photo.noise_scale * e.noise.Gaussian(end.covariance_mm2);
+                 photo.noise_scale * (off_along * along + off_across * across);
   return end;
+}
+
+// Along and across the symmetry line.
+Eigen::Matrix2d PivotCovariance(const SimulatedPhoto& photo) {
+  const double along = photo.pivot_along_sigma_mm.value_or(photo.pivot_sigma_mm);
+  const Eigen::Rotation2Dd turn(photo.axis_rad);
+  const Eigen::Vector2d variances(along * along, photo.pivot_sigma_mm * photo.pivot_sigma_mm);
+  return turn * variances.asDiagonal() * turn.inverse();
 }
 
 }  // namespace
@@ -113,8 +123,7 @@ EdgePoints Photograph(const TrueScissors& scissors, const SimulatedPhoto& photo,
   edges.photo = "simulated";
   edges.upper = SeenEdge(scissors, e, 1);
   if (photo.lower) edges.lower = SeenEdge(scissors, e, -1);
-  edges.pivot.covariance_mm2 =
-      Eigen::Matrix2d::Identity() * photo.pivot_sigma_mm * photo.pivot_sigma_mm;
+  edges.pivot.covariance_mm2 = PivotCovariance(photo);
   edges.pivot.point_mm = photo.pivot_mm + k * noise.Gaussian(edges.pivot.covariance_mm2);
   edges.upper_end = SeenEnd(scissors, e, 1);
   edges.lower_end = SeenEnd(scissors, e, -1);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -36,6 +36,8 @@ struct SimulatedPhoto {
   int points = 400;
   double sigma_mm = 0.02;  // of an edge point
   double pivot_sigma_mm = 0.05;
+  // Along the symmetry line; far larger where the screw is not seen.
+  std::optional<double> pivot_along_sigma_mm;
   double end_along_sigma_mm = 0.2;  // of the distal ends along their edges
   double scale_sigma = 0, offset_sigma_mm = 0;
   double correlation_length_mm = 0;   // the noise of neighbours is a running mean over this
