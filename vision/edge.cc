@@ -64,14 +64,16 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   EdgeFitOptions fit_options;
   fit_options.inner_px = chosen.inner_px;
   fit_options.outer_px = chosen.outer_px;
-  fit_options.blur_px = chosen.blur_px;
+  fit_options.blur_px = options.blur_px.value_or(chosen.blur_px);
+  fit_options.blur_known = options.blur_px.has_value();
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
   const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);
   RefuseIfUnseen(fit.seen, kLeastPlaced);
   LocatedEdge edge = PointsFromFit(fit, options);
+  edge.overexposed = fit.overexposed;
   edge.ambiguity = std::max(chosen.ambiguity, 1 - chosen.support);
-  edge.common_sigma_px = CommonSigma(fit, tone, chosen);
+  edge.common_sigma_px = CommonSigma(fit, tone, chosen, options.blur_px.has_value());
   return edge;
 }
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "vision/tone_curve.h"
@@ -25,6 +26,8 @@ struct EdgeOptions {
       4.0;  // a point further from the local edge than this is a glint, nick or dirt
   bool correct_curvature = true;       // bias -(sigma^2 + 1/12)/(2R)
   bool model_background_slope = true;  // shadows: grey values may slope on either side
+  std::optional<double>
+      blur_px;  // known from another edge of the photograph; an overexposed blade hides its own
 };
 
 struct LocatedEdgePoint {
@@ -41,6 +44,7 @@ struct LocatedEdge {
   std::vector<LocatedEdgePoint> points;  // ordered along the path; outliers stay, marked
   double blur_px =
       std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma of the edge, pixel box apart
+  double overexposed = 0;  // share of its length beside which blade or background is plain white
   double noise = std::numeric_limits<double>::quiet_NaN();  // of a pixel, linear light
   double correlation_px = 0;   // neighbours closer than this are not independent
   double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow

@@ -237,27 +237,39 @@ std::vector<double> FreeDistances(const StepMap& map, const StepLine& line, int 
   return typical;
 }
 
+// The best other line that might be the border: one further out, or one within where the band
+// between them may be a shadow, that is darker than both its sides.
+StepLine RivalOf(const Survey& survey, const StepLine& line, double search_px) {
+  constexpr int kApart = 2;  // rows; nearer lines are the same
+  const bool dark_inside = TypicalHeight(survey.map, line) > 0;
+  return FindBestLine(survey.map,
+                      Scores(survey,
+                             [&](int station, int row) {
+                               const int outwards = row - line.rows[Index(station)];
+                               const size_t at = survey.map.At(station, row);
+                               if (std::abs(survey.FromGuess(station, row)) > search_px)
+                                 return kForbidden;
+                               if (std::abs(outwards) <= kApart) return 0.25F * kForbidden;
+                               const bool shadow = dark_inside && survey.map.height[at] < 0;
+                               return outwards > 0 || shadow ? survey.map.clear[at] : 0.0F;
+                             }),
+                      kStiffBend);
+}
+
 void CompareWithRival(const Survey& survey,
                       const StepLine& line,
                       double search_px,
                       ChosenTransition& chosen) {
-  constexpr int kApart = 2;  // rows; nearer lines are the same
-  const StepLine rival =
-      FindBestLine(survey.map,
-                   Scores(survey,
-                          [&](int station, int row) {
-                            if (std::abs(survey.FromGuess(station, row)) > search_px)
-                              return kForbidden;
-                            if (std::abs(row - line.rows[Index(station)]) <= kApart)
-                              return 0.25F * kForbidden;
-                            return survey.map.clear[survey.map.At(station, row)];
-                          }),
-                   kStiffBend);
+  constexpr double kAsHigh = 0.5;  // of the line's height; lower ones are texture
+  const StepLine rival = RivalOf(survey, line, search_px);
   for (int station = 0; station < survey.map.stations; ++station) {
     chosen.rival_px += (rival.rows[Index(station)] - line.rows[Index(station)]) /
                        static_cast<double>(survey.map.stations);
   }
-  chosen.ambiguity = std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0);
+  const double as_high = std::abs(TypicalHeight(survey.map, rival)) /
+                         std::max(kAsHigh * std::abs(TypicalHeight(survey.map, line)), 1e-6);
+  chosen.ambiguity =
+      std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0) * std::min(as_high, 1.0);
 }
 
 struct Surveyed {

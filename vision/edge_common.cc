@@ -47,13 +47,12 @@ double ToneSigma(const std::vector<Levels>& levels, double blur_px, double gamma
 }
 
 // Where one side is overexposed its true light is unknown, and the edge creeps towards the other
-// side: by 0.7 of the blur where a blade is four times too bright.
-double BloomSigma(const std::vector<Levels>& levels, double blur_px) {
-  constexpr double kOverexposed = 0.96, kPerBlur = 0.5;
-  double overexposed = 0;
-  for (const Levels& at : levels) overexposed += std::max(at.blade, at.ground) > kOverexposed;
-  const double share = overexposed / std::max(static_cast<double>(levels.size()), 1.0);
-  return share * kPerBlur * std::sqrt(TotalBlurVariance(blur_px));
+// side: by twice the blur it then shows where a blade is two or three times too bright. Told from
+// the blur, a third of the blur remains.
+double BloomSigma(const EdgeFit& fit, bool blur_known) {
+  constexpr double kPerApparentBlur = 1.2, kPerBlur = 0.33;
+  return fit.overexposed * (blur_known ? kPerBlur : kPerApparentBlur) *
+         std::sqrt(TotalBlurVariance(fit.blur_px));
 }
 
 // Nothing for a rival that is much worse; for one that is as good, a third of the way to it.
@@ -65,10 +64,13 @@ double RivalSigma(const ChosenTransition& chosen) {
 
 }  // namespace
 
-double CommonSigma(const EdgeFit& fit, const ToneCurve& tone, const ChosenTransition& chosen) {
+double CommonSigma(const EdgeFit& fit,
+                   const ToneCurve& tone,
+                   const ChosenTransition& chosen,
+                   bool blur_known) {
   const std::vector<Levels> levels = SomeLevels(fit);
   return std::hypot(ToneSigma(levels, fit.blur_px, tone.gamma_sigma),
-                    BloomSigma(levels, fit.blur_px),
+                    BloomSigma(fit, blur_known),
                     RivalSigma(chosen));
 }
 

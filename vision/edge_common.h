@@ -13,6 +13,7 @@ namespace bladecurve {
 // border.
 [[nodiscard]] double CommonSigma(const EdgeFit& fit,
                                  const ToneCurve& tone,
-                                 const ChosenTransition& chosen);
+                                 const ChosenTransition& chosen,
+                                 bool blur_known);
 
 }  // namespace bladecurve

@@ -9,6 +9,7 @@
 
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
+#include "vision/edge_clipping.h"
 #include "vision/edge_levels.h"
 #include "vision/edge_windows.h"
 #include "vision/robust_statistics.h"
@@ -23,7 +24,8 @@ constexpr double kFirstShare =
 constexpr int kImproveRounds = 2;
 constexpr int kImproveStride = 2;
 constexpr int kNoiseStride = 2 * EdgeWindows::kStretch;
-constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
+constexpr double kNearlyWhite = 0.15;  // linear light; noise and compression stay within
+constexpr double kLeastNoise = 2e-4;   // linear light; rendered pictures without noise
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
@@ -45,7 +47,10 @@ struct PreparedPixel {
 class Fitter {
  public:
   Fitter(const cv::Mat& grey, const ToneCurve& tone, const EdgeFitOptions& options)
-      : grey_(grey), tone_(tone), options_(options), blur_(kFirstShare * options.blur_px) {}
+      : grey_(grey),
+        tone_(tone),
+        options_(options),
+        blur_(options.blur_known ? options.blur_px : kFirstShare * options.blur_px) {}
 
   EdgeFit Run(const std::vector<Eigen::Vector2d>& start, bool blade_on_left) {
     constexpr double kStartSmoothing = 2, kSmoothing = 1;  // px; what was fitted is smooth already
@@ -65,6 +70,7 @@ class Fitter {
     inner_px_ = AlongPath(options_.inner_px);
     for (double& inner : inner_px_) inner -= face_moved_px_;
     band_ = GatherPixels(grey_, tone_, path_, {InnerReach(), OuterReach()});
+    if (options_.blur_known) glare_ = Overexposure(band_);
   }
 
   void Improve(int stride, bool placed) {
@@ -77,14 +83,16 @@ class Fitter {
 
   void Solve(int stride, bool last) {
     kept_.reserve(last ? band_.pixels.size() : 0);
-    windows_ = EdgeWindows(path_.size());
-    windows_.Distrust(misfit_);
+    EdgeWindows windows(path_.size());
+    windows.Distrust(misfit_);
     for (int i = 0; i < band_.size(); i += stride) {
       for (const PreparedPixel& pixel : Prepare(i)) {
-        windows_.Add(i, pixel.terms, pixel.light, pixel.weight);
+        if (pixel.weight > 0) windows.Add(i, pixel.terms, pixel.light, pixel.weight);
       }
+      AddUnknownLight(i, windows);
       if (last) kept_.insert(kept_.end(), prepared_.begin(), prepared_.end());
     }
+    windows_ = std::move(windows);
     LevelVector precision = LevelVector::Zero();
     if (last) precision[kSpread] = kFixed;  // the blur is known by now
     if (!options_.model_slopes) {
@@ -111,10 +119,48 @@ class Fitter {
       const StepSample sample = step.At(across);
       prepared_.push_back(
           {band_.pixels[Index(p)].light,
-           noise_.Weight(sample.step),
+           WeightAt(i, sample.step),
            LevelTerms(sample, step.At(across + inner_px_[Index(i)]), across, variance)});
     }
+    if (glare_.OfBlade(i) || glare_.OfGround(i)) HideWhite(i);
     return prepared_;
+  }
+
+  // The noise of an overexposed side is cut off with its light: the other side's stands in.
+  [[nodiscard]] double WeightAt(int i, double step) const {
+    constexpr double kModelError = 0.01;  // linear light; blur is no Gaussian to the last percent
+    if (!glare_.OfBlade(i) && !glare_.OfGround(i)) return noise_.Weight(step);
+    const double seen = glare_.OfBlade(i) ? noise_.ground : noise_.blade;
+    return 1 / (seen * seen + kModelError * kModelError);
+  }
+
+  // Takes the pixels that an overexposed side makes white, or nearly, out of the balance: by what
+  // the levels say they should show, for what they do show is cut off.
+  void HideWhite(int i) {
+    const bool known = !windows_.fits().empty();
+    const LevelVector levels = known ? windows_.LevelsAt(i) : LevelVector::Zero();
+    for (PreparedPixel& pixel : prepared_) {
+      const double expected = known ? levels.dot(pixel.terms) : pixel.light;
+      if (std::max(expected, pixel.light - kNearlyWhite) > Overexposure::kTrusted) pixel.weight = 0;
+    }
+  }
+
+  // What is known of the light of an overexposed side where its flank says little: a stop above
+  // white, give or take one, and even.
+  static void AddUnknownLight(int i, LevelTerm level, LevelTerm slope, EdgeWindows& windows) {
+    constexpr double kUsual = 2, kSigma = 1;  // of white
+    constexpr double kSlopeSigma = 0.02;      // of white, per px
+    LevelVector terms = LevelVector::Zero();
+    terms[level] = 1;
+    windows.Add(i, terms, kUsual, 1 / (kSigma * kSigma));
+    terms[level] = 0;
+    terms[slope] = 1;
+    windows.Add(i, terms, 0, 1 / (kSlopeSigma * kSlopeSigma));
+  }
+
+  void AddUnknownLight(int i, EdgeWindows& windows) const {
+    if (glare_.OfBlade(i)) AddUnknownLight(i, kBlade, kBladeSlope, windows);
+    if (glare_.OfGround(i)) AddUnknownLight(i, kGround, kGroundSlope, windows);
   }
 
   [[nodiscard]] std::vector<double> AlongPath(const std::vector<double>& evenly_spaced) const {
@@ -154,6 +200,7 @@ class Fitter {
       const LevelVector levels = windows_.LevelsAt(i);
       double squares = 0;
       for (const PreparedPixel& pixel : Prepare(i)) {
+        if (pixel.weight == 0) continue;
         const double rest = pixel.light - levels.dot(pixel.terms), step = pixel.terms[kGround];
         if (step < kPlain) blade.push_back(rest);
         if (step > 1 - kPlain) ground.push_back(rest);
@@ -184,6 +231,7 @@ class Fitter {
   }
 
   void UpdateBlur() {
+    if (options_.blur_known) return;
     // A much wider step is another thing than the blade's border.
     constexpr double kLeastShare = 0.5, kMostShare = 1.5, kMargin = 0.25;  // px
     constexpr double kPriorInformation =
@@ -248,6 +296,7 @@ class Fitter {
     EdgeFit fit;
     fit.seen = SeenShare();
     fit.blur_px = blur_;
+    fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
     for (int i = 0; i < band_.size(); ++i) fit.slices.push_back(FitSlice(i));
@@ -285,6 +334,7 @@ class Fitter {
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
+  Overexposure glare_;  // empty unless it can be told: without the blur, its flank may be anything
   double face_moved_px_ = 0;                    // the blade's inner transition, towards the edge
   std::vector<double> inner_px_;                // to the blade's inner transition, one per sample
   std::vector<PreparedPixel> prepared_, kept_;  // of one sample; of all in the last round

@@ -17,7 +17,8 @@ struct EdgeFitOptions {
   // spaced).
   std::vector<double> inner_px = {kFree}, outer_px = {kFree};
   static constexpr double kFree = 1e3;
-  double blur_px = 0.9;  // known to a factor of two; 0.9 is usual
+  double blur_px = 0.9;     // known to a factor of two; 0.9 is usual
+  bool blur_known = false;  // blur_px is right and stays
   bool correct_curvature = true;
   bool model_slopes = true;
 };
@@ -35,6 +36,8 @@ struct EdgeFit {
   std::vector<EdgeSlice> slices;  // one per sample; sigma infinite where there are no pixels
   double seen = 0;                // share of the windows that place the edge to a third of a pixel
   double blur_px = 0;
+  double overexposed =
+      0;  // share of the path beside which one side is white beyond the picture's range
   double noise_blade = 0, noise_ground = 0;  // of a pixel, texture included, linear light
 };
 

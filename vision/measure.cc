@@ -9,7 +9,7 @@
 
 #include "vision/blade_frame.h"
 #include "vision/distal_end.h"
-#include "vision/edge.h"
+#include "vision/edge_pair.h"
 #include "vision/pivot.h"
 #include "vision/refused.h"
 #include "vision/scene.h"
@@ -64,47 +64,6 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
                              static_cast<int>(std::lround(high.y() - low.y())) + 1);
   }
   return stored;
-}
-
-// The edge as scene finding traced it, for want of a better one: good to a pixel of the small
-// picture, and marked as doubtful.
-LocatedEdge AsTraced(const Scene& scene, const SceneBlade& blade, bool left) {
-  LocatedEdge edge;
-  const std::vector<Vector2d>& path = blade.inner_px;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Vector2d along =
-        (path[std::min(i + 3, path.size() - 1)] - path[i < 3 ? 0 : i - 3]).normalized();
-    LocatedEdgePoint point;
-    point.point_px = path[i];
-    point.trend_px = path[i];
-    point.normal = (left ? -1.0 : 1.0) * Vector2d(along.y(), -along.x());
-    point.sigma_px = 2 * scene.path_sigma_px;
-    edge.points.push_back(point);
-  }
-  edge.correlation_px = 10 * scene.path_sigma_px;
-  edge.common_sigma_px = 2 * scene.path_sigma_px;
-  edge.ambiguity = 1;
-  return edge;
-}
-
-// Throws Refused if the edge is `needed` and not to be found.
-LocatedBlade Locate(
-    const Photo& photo, const ToneCurve& tone, const Scene& scene, bool left, bool needed) {
-  constexpr double kFarthest = 0.2;  // of the blade's width: a shadow or a bevel led the trace astray
-  const SceneBlade& blade = left ? scene.left : scene.right;
-  EdgeGuess guess;
-  guess.path_px = blade.inner_px;
-  guess.blade_on_left = left;
-  guess.search_px = std::max(5.0, 1.5 * scene.path_sigma_px + kFarthest * blade.width_px);
-  LocatedBlade located;
-  located.on_left = left;
-  try {
-    located.edge = LocateEdge(photo.grey(), tone, guess);
-  } catch (const Refused&) {
-    if (needed) throw;
-    located.edge = AsTraced(scene, blade, left);
-  }
-  return located;
 }
 
 std::vector<Vector2d> InlierPoints(const LocatedEdge& edge) {
@@ -309,8 +268,9 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
 
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  LocatedBlade upper = Locate(photo, scale.tone, scene, upper_on_left, true);
-  LocatedBlade lower = Locate(photo, scale.tone, scene, !upper_on_left, false);
+  BladeEdges edges = LocateBlades(photo, scale.tone, scene, upper_on_left);
+  LocatedBlade upper{upper_on_left, std::move(edges.upper), {}, {}};
+  LocatedBlade lower{!upper_on_left, std::move(edges.lower), {}, {}};
   Trim(photo, scene, &upper);
   Trim(photo, scene, &lower);
   log.Ran("edges", "full resolution along the blades only");

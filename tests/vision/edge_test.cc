@@ -196,6 +196,28 @@ TEST(LocateEdge, ADarkBevelLineBelongsToTheBlade) {
   }
 }
 
+// A blade two and a half times brighter than white, as the picture stores it: cut off.
+TEST(LocateEdge, AGlaringBladesEdgeIsFoundOnceTheBlurIsKnown) {
+  constexpr double kBlur = 0.7;     // of Edge()
+  constexpr double kClose = 0.12;   // px; the light beyond white is known to a factor only
+  constexpr double kPulled = 0.35;  // px; what is taken for half-way lies outwards
+  Gaussian random(21);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light = Banded(line, [](double d) { return 640 - 610 * Edge(d); });
+    const cv::Mat grey = testing::Stored(light, 1.5, 2.2, random);
+    const LocatedEdge alone = LocateEdge(grey, testing::GammaCurve(2.2), GuessOf(line, 1, -1));
+    EXPECT_GT(alone.overexposed, 0.9);
+    EXPECT_GT(MeanOffset(alone, line).mean, kPulled);
+    EXPECT_GT(alone.common_sigma_px, 0.5 * MeanOffset(alone, line).mean) << "and says so";
+    EdgeOptions options;
+    options.blur_px = kBlur;
+    const LocatedEdge tied =
+        LocateEdge(grey, testing::GammaCurve(2.2), GuessOf(line, 1, -1), options);
+    EXPECT_NEAR(MeanOffset(tied, line).mean, 0, kClose);
+  }
+}
+
 TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
   Gaussian random(17);
   const Line line = RandomLine(random);

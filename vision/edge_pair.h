@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/edge.h"
+#include "vision/photo.h"
+#include "vision/scene.h"
+
+namespace bladecurve {
+
+// The cutting edges of both blades, stored pixels.
+struct BladeEdges {
+  LocatedEdge upper, lower;
+};
+
+// Locates both edges beside the traces of the scene, at full resolution along the blades only. The
+// lower edge may be the trace itself where nothing better is to be had: ambiguity 1, sigma as large
+// as the trace's. Throws Refused as LocateEdge does for the upper edge.
+[[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
+                                    const ToneCurve& tone,
+                                    const Scene& scene,
+                                    bool upper_on_left);
+
+}  // namespace bladecurve
