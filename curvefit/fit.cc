@@ -91,6 +91,22 @@ double Farthest(const std::vector<double>& reaches) {
   return *std::max_element(reaches.begin(), reaches.end());
 }
 
+// Starting poses at which the upper edges of all photographs lie on one plain cubic: where pivots
+// are hardly known, edges as observed lie beside each other, and knots would be chosen for that.
+void AlignPhotographs(Loss loss, FitData& data) {
+  if (data.photos.size() < 2) return;
+  const FitData thin = ThinnedData(data);
+  const std::vector<FlatPoint> points = FlatUpperEdges(thin);
+  constexpr size_t kFewest = 12;  // a cubic through fewer explains anything
+  const SplineSpace space =
+      ClampedSpace(points.size() < kFewest ? 1 : 3, points.front().u, points.back().u, {});
+  const JointModel model{space, false, loss, std::vector<bool>(data.photos.size(), false)};
+  const JointState start = SplineStart(thin, FitLinearSpline(points, space));
+  const JointResult aligned = SolveJointly(thin, model, start);
+  if (!aligned.minimizer.converged) return;
+  for (size_t p = 0; p < data.photos.size(); ++p) data.photos[p].start = aligned.state.poses[p];
+}
+
 KnotChoice ChooseSpace(const FitData& data, const FitData& thin, const FitOptions& options) {
   const std::vector<FlatPoint> points = FlatUpperEdges(thin);
   KnotRequest request;
@@ -175,6 +191,7 @@ BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& optio
   BladeFit report;
   report.theta_definition = data.theta_given() ? "given" : "distal-ends";
   Clean(loss != Loss::kNone, data, report);
+  AlignPhotographs(loss, data);
 
   const KnotChoice choice = ChooseSpace(data, ThinnedData(data), options);
   const SplineSpace& space = choice.spline.space;

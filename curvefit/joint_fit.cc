@@ -125,10 +125,9 @@ JointState StartingState(const FitData& data) {
   JointState state;
   for (const PhotoData& photo : data.photos) {
     state.poses.push_back(photo.start);
-    state.reaches.push_back(photo.upper_end.norm());
-    const double ray = std::atan2(photo.upper_end.y(), photo.upper_end.x());
-    const double turn = std::remainder(photo.start[kUpperAngle] - ray, 2 * std::numbers::pi);
-    state.zeros.push_back(photo.theta_given ? 2 * turn : 0);
+    const Eigen::Vector2d end = BladeFrame(photo.start, true)(photo.upper_end);
+    state.reaches.push_back(photo.theta_given ? end.x() : end.norm());
+    state.zeros.push_back(photo.theta_given ? -2 * std::atan2(end.y(), end.x()) : 0);
   }
   return state;
 }
