@@ -76,7 +76,8 @@ CuttingOracle::Edge CuttingOracle::EdgeAt(Real x, Real theta) const {
   const RigidSpline& shape = std::get<RigidSpline>(blade_.shape());
   const Real sine = std::sin(half), cosine = std::cos(half);
   Real u = x;
-  for (int i = 0; i < 8; ++i) {  // Newton: the edge is flat beside the turn, a few steps reach the last bit
+  for (int i = 0; i < 8;
+       ++i) {  // Newton: the edge is flat beside the turn, a few steps reach the last bit
     u -= (u * cosine - Spline(shape, u) * sine - x) / (cosine - SplineSlope(shape, u) * sine);
   }
   const Real s = Spline(shape, u), slope = SplineSlope(shape, u);
