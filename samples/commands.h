@@ -18,6 +18,7 @@ void AddFit(CLI::App& app, int* exit_code);
 void AddEval(CLI::App& app, int* exit_code);
 void AddExport(CLI::App& app, int* exit_code);
 void AddTorque(CLI::App& app, int* exit_code);
+void AddIdentify(CLI::App& app, int* exit_code);
 void AddCatalog(CLI::App& app, int* exit_code);
 void AddValidate(CLI::App& app, int* exit_code);
 void AddCard(CLI::App& app, int* exit_code);

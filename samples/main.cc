@@ -78,6 +78,7 @@ void AddCommands(CLI::App& app, int* exit_code) {
   AddExport(app, exit_code);
   AddCatalog(app, exit_code);
   AddTorque(app, exit_code);
+  AddIdentify(app, exit_code);
   AddValidate(app, exit_code);
   AddCard(app, exit_code);
 }
