@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "curvefit/bspline.h"
 
-#include <Eigen/LU>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 
 namespace bladecurve {
@@ -66,64 +63,9 @@ BasisRow EvalBasis(const SplineSpace& space, double u) {
   BasisRow row;
   row.first = span - degree;
   row.value[0] = 1;
-  Row slope_below{};  // derivatives of the functions one degree lower
   for (int d = 1; d <= degree; ++d) {
-    if (d == degree) {
-      Differentiate(space.knots, span, d, row.value, row.slope);
-      Differentiate(space.knots, span, d, slope_below, row.curvature);
-    } else if (d == degree - 1) {
-      Differentiate(space.knots, span, d, row.value, slope_below);
-    }
+    if (d == degree) Differentiate(space.knots, span, d, row.value, row.slope);
     RaiseDegree(space.knots, span, d, u, row.value);
-  }
-  return row;
-}
-
-BasisTable::BasisTable(const SplineSpace& space) : degree_(space.degree) {
-  const int size = degree_ + 1;
-  Eigen::MatrixXd powers(size, size);
-  std::vector<double> nodes;
-  for (int i = 0; i < size; ++i) {
-    nodes.push_back(
-        std::cos(std::numbers::pi * (i + 0.5) / size));  // Chebyshev's: well conditioned
-    for (int k = 0; k < size; ++k) powers(i, k) = std::pow(nodes.back(), k);
-  }
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(powers);
-  for (int first = 0; first + degree_ < space.size(); ++first) {
-    const double begin = space.knots[first + degree_], end = space.knots[first + degree_ + 1];
-    Span span{(begin + end) / 2, 2 / (end - begin)};
-    Eigen::MatrixXd values(size, size);
-    for (int i = 0; i < size; ++i) {
-      const BasisRow row = EvalBasis(space, span.centre + nodes[i] / span.scale);
-      for (int j = 0; j < size; ++j) values(i, j) = row.value[j];
-    }
-    const Eigen::MatrixXd coefficients = lu.solve(values);
-    for (int k = 0; k < size; ++k) {
-      for (int j = 0; j < size; ++j) span.powers[k][j] = coefficients(k, j);
-    }
-    spans_.push_back(span);
-    if (first + degree_ + 1 < space.size()) ends_.push_back(end);
-  }
-}
-
-BasisRow BasisTable::At(double u) const {
-  size_t i = 0;
-  while (i < ends_.size() && u >= ends_[i]) ++i;
-  const Span& span = spans_[i];
-  const double t = (u - span.centre) * span.scale;
-  BasisRow row;
-  row.first = static_cast<int>(i);
-  // Horner's scheme for the value, the slope and half the curvature of all functions at once.
-  for (int k = degree_; k >= 0; --k) {
-    for (int j = 0; j <= kMaxSplineDegree; ++j) {
-      row.curvature[j] = row.curvature[j] * t + row.slope[j];
-      row.slope[j] = row.slope[j] * t + row.value[j];
-      row.value[j] = row.value[j] * t + span.powers[k][j];
-    }
-  }
-  for (int j = 0; j <= kMaxSplineDegree; ++j) {
-    row.slope[j] *= span.scale;
-    row.curvature[j] *= 2 * span.scale * span.scale;
   }
   return row;
 }

@@ -19,10 +19,10 @@ struct SplineSpace {
   [[nodiscard]] double upper() const { return knots.back(); }
 };
 
-// The degree + 1 basis functions that are not zero at one place, with two derivatives.
+// The degree + 1 basis functions that are not zero at one place, with their derivatives.
 struct BasisRow {
   int first = 0;  // index of the first of them
-  std::array<double, kMaxSplineDegree + 1> value{}, slope{}, curvature{};
+  std::array<double, kMaxSplineDegree + 1> value{}, slope{};
 };
 
 // Interior knots must lie strictly inside (lower, upper), increasing.
@@ -36,25 +36,6 @@ struct BasisRow {
 
 // Beyond the ends the polynomials of the end spans go on.
 [[nodiscard]] BasisRow EvalBasis(const SplineSpace& space, double u);
-
-// The same as EvalBasis, for many places: the functions of each span as polynomials, without
-// divisions.
-class BasisTable {
- public:
-  explicit BasisTable(const SplineSpace& space);
-  [[nodiscard]] BasisRow At(double u) const;
-  [[nodiscard]] int degree() const { return degree_; }
-
- private:
-  using Row = std::array<double, kMaxSplineDegree + 1>;
-  struct Span {
-    double centre = 0, scale = 1;                    // t = (u - centre) * scale, within +-1
-    std::array<Row, kMaxSplineDegree + 1> powers{};  // of t, ascending; each for all functions
-  };
-  int degree_;
-  std::vector<double> ends_;  // of all spans but the last
-  std::vector<Span> spans_;
-};
 
 // The abscissae xi_j with u = sum xi_j B_j(u): the identity written as a spline.
 [[nodiscard]] std::vector<double> GrevilleAbscissae(const SplineSpace& space);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curvefit/span_table.h"
 #include "curvefit/spline_shape.h"
 #include "curvefit/statistics.h"
 
@@ -25,13 +26,14 @@ struct ShapeRow {
 
 class ShapeRows {
  public:
-  ShapeRows(const JointModel& model, const JointState& state)
-      : table_(model.space.value_or(ClampedSpace(1, 0, 1, {}))), is_spline_(model.space) {
-    if (is_spline_) {
-      const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
-      c_ = CoefficientsOf(*model.space, state.shape.data(), end).value;
-    }
-    columns_ = is_spline_ ? model.space->size() : 2;
+  ShapeRows(const JointModel& model, const JointState& state) : is_spline_(model.space) {
+    if (!is_spline_) return;
+    const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
+    degree_ = model.space->degree;
+    columns_ = model.space->size();
+    spans_ = SpansOf(*model.space);
+    pieces_ =
+        PiecesOf(spans_, degree_, CoefficientsOf(*model.space, state.shape.data(), end).value);
   }
   [[nodiscard]] int columns() const { return columns_; }
 
@@ -40,16 +42,19 @@ class ShapeRows {
     if (!is_spline_) pose[kUpperAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
     const BladeFrame frame(pose, true);
     std::vector<ShapeRow> rows(edge.points.size());
+    size_t span = 0;
     for (int i = 0; i < edge.size(); ++i) {
       const Eigen::Vector2d p = frame(edge.points[i]);
       ShapeRow& row = rows[static_cast<size_t>(i)];
       if (is_spline_) {
-        const BasisRow basis = table_.At(p.x());
-        const double slope = SlopeAt(basis, table_.degree(), c_.data());
-        const double cosine = 1 / std::sqrt(1 + slope * slope);
-        const SplineDistance d = DistanceFrom(basis, table_.degree(), c_.data(), p.y(), cosine);
-        row.first = d.first;
-        for (int j = 0; j <= table_.degree(); ++j) row.values(j) = d.d_c[j];
+        span = FindSpan(spans_, p.x(), span);
+        const double t = (p.x() - spans_[span].centre) * spans_[span].scale;
+        const double slope = Horner<kMaxSplineDegree>(pieces_[span].slope, t);
+        row.first = static_cast<int>(span);
+        for (int j = 0; j <= degree_; ++j) {
+          row.values(j) = Horner<kMaxSplineDegree>(spans_[span].basis[j], t);
+        }
+        row.values /= std::sqrt(1 + slope * slope);
       } else {
         row.values.head<2>() << 1, p.x();
       }
@@ -59,10 +64,10 @@ class ShapeRows {
   }
 
  private:
-  BasisTable table_;
   bool is_spline_;
-  int columns_ = 0;
-  Eigen::VectorXd c_;
+  int degree_ = 1, columns_ = 2;
+  std::vector<Span> spans_;
+  std::vector<Piece> pieces_;
 };
 
 // The inverse normal matrix, padded so that every row's block lies inside.

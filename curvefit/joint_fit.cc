@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 
+#include "curvefit/span_table.h"
 #include "curvefit/spline_frame.h"
 #include "curvefit/spline_shape.h"
 
@@ -147,14 +148,17 @@ std::vector<double> Distances(const EdgeSamples& edge,
   distances.reserve(edge.points.size());
   if (model.space) {
     const Eigen::VectorXd c = SplineCoefficientsOf(model, state);
-    const BasisTable table(*model.space);
+    const std::vector<Span> spans = SpansOf(*model.space);
+    const std::vector<Piece> pieces = PiecesOf(spans, model.space->degree, c);
     const BladeFrame frame(pose, is_upper);
+    size_t span = 0;
     for (const Eigen::Vector2d& point : edge.points) {
       const Eigen::Vector2d p = frame(point);
-      const BasisRow row = table.At(p.x());
-      const double slope = SlopeAt(row, table.degree(), c.data());
-      const double cosine = 1 / std::sqrt(1 + slope * slope);
-      const double d = DistanceFrom(row, table.degree(), c.data(), p.y(), cosine).d;
+      span = FindSpan(spans, p.x(), span);
+      const double t = (p.x() - spans[span].centre) * spans[span].scale;
+      const double slope = Horner<kMaxSplineDegree>(pieces[span].slope, t);
+      const double above = p.y() - Horner<kMaxSplineDegree>(pieces[span].value, t);
+      const double d = above / std::sqrt(1 + slope * slope);
       distances.push_back((d + pose[kOffset]) / (1 + pose[kScale]));
     }
     return distances;

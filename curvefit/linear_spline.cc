@@ -5,6 +5,9 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "curvefit/span_sums.h"
+#include "curvefit/span_table.h"
+
 namespace bladecurve {
 namespace {
 
@@ -13,32 +16,16 @@ constexpr double kPoseSlack = 0.05;
 // Keeps the equations solvable where a basis function meets no point; far below the rounding of the
 // data.
 constexpr double kRidge = 1e-13;
-constexpr int kPoseColumns = 3;  // offset, turn, shift along u
+// A photograph beyond the first may be off by an offset, a turn and a shift along u.
+constexpr int kMotions = 3;
+// Beside the powers of t: the edge's slope, with which a shift along u shows, and v.
+constexpr int kSlope = 0, kValue = 1, kExtra = 2;
 
-constexpr int kWidth = kMaxSplineDegree + 1;
-
-// The columns of one point: its basis functions from `first` on (0 beyond the degree), and the
-// motion of its photograph.
-struct SparseRow {
-  int first = 0, pose = -1;  // pose: first of three columns; -1 for the first photograph
-  Eigen::Matrix<double, kWidth, 1> basis;
-  Eigen::Vector3d motion;
-};
-
-SparseRow RowOf(const FlatPoint& point, int first_pose, const BasisTable& table) {
-  const BasisRow basis = table.At(point.u);
-  SparseRow row;
-  row.first = basis.first;
-  row.basis = point.weight * Eigen::Map<const Eigen::Matrix<double, kWidth, 1>>(basis.value.data());
-  if (point.photo > 0) {
-    row.pose = first_pose + kPoseColumns * (point.photo - 1);
-    row.motion = point.weight * Eigen::Vector3d(1, point.u, point.slope);
-  }
-  return row;
+// First of the columns that move a photograph; -1 for the first one.
+int MotionColumn(const SplineSpace& space, int photo) {
+  return photo > 0 ? space.size() + kMotions * (photo - 1) : -1;
 }
 
-// Normal equations; the lower triangle of the matrix is what counts. kWidth columns of padding
-// after the coefficients, so that every row's block lies inside.
 struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right;
@@ -46,15 +33,84 @@ struct NormalEquations {
   explicit NormalEquations(Eigen::Index size)
       : matrix(Eigen::MatrixXd::Zero(size, size)), right(Eigen::VectorXd::Zero(size)) {}
 
-  void Add(const SparseRow& row, double value) {
-    matrix.block<kWidth, kWidth>(row.first, row.first) += row.basis * row.basis.transpose();
-    right.segment<kWidth>(row.first) += value * row.basis;
-    if (row.pose < 0) return;
-    matrix.block<3, kWidth>(row.pose, row.first) += row.motion * row.basis.transpose();
-    matrix.block<3, 3>(row.pose, row.pose) += row.motion * row.motion.transpose();
-    right.segment<3>(row.pose) += value * row.motion;
+  // The points of one photograph in one span, as basis functions, motions and v.
+  template <int Degree>
+  void Add(const Span& span, int first, int motion, const SpanSums<Degree, kExtra>& sums) {
+    constexpr int kBasis = Degree + 1;
+    Eigen::Matrix<double, kBasis + kExtra, kBasis + kMotions> columns;
+    columns.setZero();
+    for (int j = 0; j < kBasis; ++j) {
+      for (int k = 0; k < kBasis; ++k) columns(k, j) = span.basis[j][k];
+    }
+    columns(0, kBasis) = 1;
+    columns.template block<2, 1>(0, kBasis + 1) << span.centre, 1 / span.scale;  // u itself
+    columns(kBasis + kSlope, kBasis + 2) = 1;
+    const typename SpanSums<Degree, kExtra>::Matrix products = sums.AllProducts();
+    const auto by_columns = (products * columns).eval();
+    const auto all = (columns.transpose() * by_columns).eval();
+    const auto values = by_columns.row(kBasis + kValue).transpose().eval();
+    matrix.block<kBasis, kBasis>(first, first) += all.template topLeftCorner<kBasis, kBasis>();
+    right.segment<kBasis>(first) += values.template head<kBasis>();
+    if (motion < 0) return;
+    matrix.block<kMotions, kBasis>(motion, first) +=
+        all.template bottomLeftCorner<kMotions, kBasis>();
+    matrix.block<kMotions, kMotions>(motion, motion) +=
+        all.template bottomRightCorner<kMotions, kMotions>();
+    right.segment<kMotions>(motion) += values.template tail<kMotions>();
   }
 };
+
+// The lower triangle of the matrix is what counts.
+template <int Degree>
+void AddPoints(const std::vector<FlatPoint>& points,
+               const SplineSpace& space,
+               const std::vector<Span>& spans,
+               int photos,
+               NormalEquations& equations) {
+  using Sums = SpanSums<Degree, kExtra>;
+  std::vector<Sums> sums(photos);
+  size_t span = 0;
+  const auto flush = [&] {
+    for (int photo = 0; photo < photos; ++photo) {
+      const int motion = MotionColumn(space, photo);
+      equations.Add<Degree>(spans[span], static_cast<int>(span), motion, sums[photo]);
+      sums[photo] = Sums();
+    }
+  };
+  for (const FlatPoint& point : points) {
+    const size_t here = FindSpan(spans, point.u, span);
+    if (here != span) {
+      flush();
+      span = here;
+    }
+    const double t = (point.u - spans[span].centre) * spans[span].scale;
+    sums[point.photo].Add(t, point.weight, {point.weight * point.slope, point.weight * point.v});
+  }
+  flush();
+}
+
+template <int Degree>
+void FillResiduals(const std::vector<FlatPoint>& points,
+                   const std::vector<Span>& spans,
+                   const Eigen::VectorXd& solution,
+                   LinearSpline& fit) {
+  const std::vector<Piece> pieces = PiecesOf(spans, Degree, fit.coefficients);
+  fit.residuals.resize(points.size());
+  size_t span = 0;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const FlatPoint& point = points[i];
+    span = FindSpan(spans, point.u, span);
+    const double t = (point.u - spans[span].centre) * spans[span].scale;
+    double above = point.v - Horner<Degree>(pieces[span].value, t);
+    const int motion = MotionColumn(fit.space, point.photo);
+    if (motion >= 0) {
+      above -=
+          solution(motion) + point.u * solution(motion + 1) + point.slope * solution(motion + 2);
+    }
+    fit.residuals[i] = point.weight * above;
+    fit.chi2 += fit.residuals[i] * fit.residuals[i];
+  }
+}
 
 void AddStiffness(double stiffness, int coefficients, Eigen::MatrixXd& normal) {
   const double weight = stiffness * normal.diagonal().head(coefficients).mean();
@@ -75,32 +131,21 @@ int LastPhoto(const std::vector<FlatPoint>& points) {
 LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
                              const SplineSpace& space,
                              double stiffness) {
-  const int first_pose = space.size() + kWidth;
-  const int pose_columns = kPoseColumns * LastPhoto(points);
-  NormalEquations equations(first_pose + pose_columns);
-  std::vector<SparseRow> rows;
-  rows.reserve(points.size());
-  const BasisTable table(space);
-  for (const FlatPoint& point : points) {
-    rows.push_back(RowOf(point, first_pose, table));
-    equations.Add(rows.back(), point.weight * point.v);
-  }
+  const int last_photo = LastPhoto(points), motions = kMotions * last_photo;
+  const std::vector<Span> spans = SpansOf(space);
+  NormalEquations equations(space.size() + motions);
+  WithDegree(space.degree, [&](auto degree) {
+    AddPoints<degree()>(points, space, spans, last_photo + 1, equations);
+  });
   Eigen::MatrixXd& normal = equations.matrix;
-  normal.diagonal().tail(pose_columns).array() += 1 / (kPoseSlack * kPoseSlack);
+  normal.diagonal().tail(motions).array() += 1 / (kPoseSlack * kPoseSlack);
   if (stiffness > 0) AddStiffness(stiffness, space.size(), normal);
   normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
   const Eigen::VectorXd solution = normal.ldlt().solve(equations.right);
 
   LinearSpline fit{space, solution.head(space.size()), {}, 0};
-  fit.residuals.reserve(points.size());
-  for (size_t k = 0; k < points.size(); ++k) {
-    const SparseRow& row = rows[k];
-    double residual =
-        points[k].weight * points[k].v - row.basis.dot(solution.segment<kWidth>(row.first));
-    if (row.pose >= 0) residual -= row.motion.dot(solution.segment<3>(row.pose));
-    fit.residuals.push_back(residual);
-    fit.chi2 += residual * residual;
-  }
+  WithDegree(space.degree,
+             [&](auto degree) { FillResiduals<degree()>(points, spans, solution, fit); });
   return fit;
 }
 

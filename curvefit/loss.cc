@@ -8,16 +8,13 @@
 namespace bladecurve {
 namespace {
 
-// Widths in sigma. Gross outliers are gone before; at these widths Gaussian noise loses less than 1
-// % (Huber) and 5 % (Cauchy, Tukey) of its information.
-constexpr double kHuber = 2.5;
+// Widths in sigma: 95 % efficient for Gaussian noise.
 constexpr double kCauchy = 2.385;
 constexpr double kTukey = 4.685;
 constexpr double kSmall = 1e-4;  // below this r/width, value and slope are the identity to rounding
 
 SoftResidual Huber(double r) {
   const double size = std::abs(r);
-  if (size <= kHuber) return {r, 1};
   const double value = std::sqrt(kHuber * (2 * size - kHuber));
   return {std::copysign(value, r), kHuber / value};
 }
@@ -49,7 +46,7 @@ Loss LossNamed(const std::string& name) {
                               "\"; it must be none, huber, cauchy or tukey");
 }
 
-SoftResidual Soften(Loss loss, double residual) {
+SoftResidual SoftenLarge(Loss loss, double residual) {
   switch (loss) {
     case Loss::kHuber:
       return Huber(residual);

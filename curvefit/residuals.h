@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -20,22 +21,33 @@ enum class Loss { kNone, kHuber, kCauchy, kTukey };
 // Throws std::invalid_argument for a name that is not "none", "huber", "cauchy" or "tukey".
 [[nodiscard]] Loss LossNamed(const std::string& name);
 
+// Width in sigma. Gross outliers are gone before; at this width Gaussian noise loses less than 1 %
+// of its information.
+inline constexpr double kHuber = 2.5;
+
 // A robust loss inside the residual: its square is rho(r^2). Works as long as rho grows like r^2
 // near 0.
 struct SoftResidual {
   double value = 0, slope = 1;
 };
-[[nodiscard]] SoftResidual Soften(Loss loss, double residual);
+[[nodiscard]] SoftResidual SoftenLarge(Loss loss, double residual);  // any but a small one of Huber
+[[nodiscard]] inline SoftResidual Soften(Loss loss, double residual) {
+  const bool plain = loss == Loss::kNone || (loss == Loss::kHuber && std::abs(residual) <= kHuber);
+  return plain ? SoftResidual{residual, 1} : SoftenLarge(loss, residual);
+}
 
 // Residuals of the edges of one photograph against the shared spline; parameter blocks: free
 // coefficients, reach, zero, pose of the first photograph, and its own pose if it is another one.
 // Thousands of points are condensed to as many residuals as there
 // are parameters, and one more for what no parameter can change: same cost, same gradient, same
 // Gauss-Newton matrix. The lower edge is used if `mirror`.
-// The edge's direction in the photograph at each point is held as it is at `start`: were it free, a
-// curve that misses its points could come nearer to them, in this measure, by standing upright.
-// Held in the photograph, not in the blade's frame: else turning the frame would change distances.
-// Distances are counted in the photograph's own lengths, else they would shrink with its scale.
+// A residual is the signed orthogonal distance of a point from the edge v = s(u), to first order in
+// the distance: (v - s) cos, cos = 1/sqrt(1 + s'^2); the next term is d^2 s''/2, 1e-5 mm for d =
+// 0.05 mm and a radius of 100 mm. The edge's direction in the photograph at each point is held as
+// it is at `start`: were it free, a curve that misses its points could come nearer to them, in this
+// measure, by standing upright. Held in the photograph, not in the blade's frame: else turning the
+// frame would change distances. Distances are counted in the photograph's own lengths, else they
+// would shrink with its scale.
 struct SplineEdgesStart {
   Eigen::VectorXd coefficients;
   Pose first_pose;               // held: where the spline lies, see spline_frame.h

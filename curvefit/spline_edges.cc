@@ -6,21 +6,19 @@
 #include <cmath>
 #include <vector>
 
+#include "curvefit/edge_frame.h"
 #include "curvefit/residuals.h"
-#include "curvefit/spline_frame.h"
 #include "curvefit/spline_shape.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr int kLocalSize = kMaxSplineDegree + 1 + kEdgeSize + 1;  // and the residual
 // Directions with less than this part of the information are rounding noise.
 constexpr double kNoise = 1e-13;
 
-using LocalRow = Eigen::Matrix<double, kLocalSize, 1>;
-using LocalMatrix = Eigen::Matrix<double, kLocalSize, kLocalSize>;
-
-enum EdgeIndex { kEdgePivotX, kEdgePivotY, kEdgeAngle, kEdgeScale, kEdgeOffset };
+// Of a point, beside the powers of t: derivatives by angle and offset of its edge, and the
+// residual.
+constexpr int kExtra = 3;
 
 // J^T J, J^T r and r^T r of all points of a photograph, over the spline's coefficients and the
 // places of its edges.
@@ -28,62 +26,28 @@ struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right;
   double squares = 0;
-};
 
-// Turns points of one edge into the spline's frame and gives the rows of the Jacobian there.
-class EdgeFrame {
- public:
-  EdgeFrame(const EdgePose& pose, bool is_upper)
-      : pose_(pose),
-        side_(is_upper ? 1 : -1),
-        cosine_(std::cos(pose(kEdgeAngle))),
-        sine_(std::sin(pose(kEdgeAngle))) {}
-
-  [[nodiscard]] Eigen::Vector2d Turned(const Eigen::Vector2d& z) const {
-    return {cosine_ * z.x() + sine_ * z.y(), side_ * (cosine_ * z.y() - sine_ * z.x())};
+  // The points of one span; `columns` by coefficients from `first` on, then by the place of the
+  // edge.
+  template <typename Products, typename Columns>
+  void Add(const Products& products, const Columns& columns, int first, int first_place) {
+    constexpr int kSums = Columns::RowsAtCompileTime, kAll = Columns::ColsAtCompileTime;
+    constexpr int kBasis = kAll - kEdgeSize;
+    const auto all =
+        (columns.transpose() * products.template topLeftCorner<kSums, kSums>() * columns).eval();
+    const auto gradient =
+        (columns.transpose() * products.template topRightCorner<kSums, 1>()).eval();
+    matrix.block<kBasis, kBasis>(first, first) += all.template topLeftCorner<kBasis, kBasis>();
+    matrix.block<kEdgeSize, kBasis>(first_place, first) +=
+        all.template bottomLeftCorner<kEdgeSize, kBasis>();
+    matrix.block<kBasis, kEdgeSize>(first, first_place) +=
+        all.template topRightCorner<kBasis, kEdgeSize>();
+    matrix.block<kEdgeSize, kEdgeSize>(first_place, first_place) +=
+        all.template bottomRightCorner<kEdgeSize, kEdgeSize>();
+    right.segment<kBasis>(first) += gradient.template head<kBasis>();
+    right.segment<kEdgeSize>(first_place) += gradient.template tail<kEdgeSize>();
+    squares += products(kSums, kSums);
   }
-
-  [[nodiscard]] Eigen::Vector2d InSpline(const Eigen::Vector2d& point) const {
-    return Turned((1 + pose_(kEdgeScale)) * point - pose_.head<2>());
-  }
-
-  // A length of the spline in the photograph's own lengths, in which its sigmas stand; residuals in
-  // mm of the blade would all shrink with the scale, and a smaller scale alone would fit better.
-  [[nodiscard]] double InPhoto(double length) const { return length / (1 + pose_(kEdgeScale)); }
-
-  // The residual of a point at this distance from the spline, not yet weighted.
-  [[nodiscard]] double Off(double distance) const { return InPhoto(distance + pose_(kEdgeOffset)); }
-
-  // Direction in the photograph of an edge of this slope in the spline's frame.
-  [[nodiscard]] Eigen::Vector2d Direction(double slope) const {
-    const double along = 1 / std::sqrt(1 + slope * slope), up = side_ * along * slope;
-    return {cosine_ * along - sine_ * up, sine_ * along + cosine_ * up};
-  }
-  // cos of the inclination that a direction of the photograph has in the spline's frame.
-  [[nodiscard]] double Cosine(const Eigen::Vector2d& direction) const {
-    return direction.x() * cosine_ + direction.y() * sine_;
-  }
-
-  // Derivatives of Off(distance) by the edge's pose, times 1 + scale.
-  void PoseColumns(const SplineDistance& distance,
-                   const Eigen::Vector2d& direction,
-                   const Eigen::Vector2d& point,
-                   const Eigen::Vector2d& in_spline,
-                   double* out) const {
-    const double du = distance.d_u, dv = side_ * distance.d_v;
-    const double above = distance.d / distance.d_v;
-    const double cosine_by_angle = direction.y() * cosine_ - direction.x() * sine_;
-    const Eigen::Vector2d turned = Turned(point);
-    out[kEdgePivotX] = -cosine_ * du + sine_ * dv;
-    out[kEdgePivotY] = -sine_ * du - cosine_ * dv;
-    out[kEdgeAngle] = side_ * in_spline.y() * du - in_spline.x() * dv + above * cosine_by_angle;
-    out[kEdgeScale] = turned.x() * du + turned.y() * distance.d_v - Off(distance.d);
-    out[kEdgeOffset] = 1;
-  }
-
- private:
-  EdgePose pose_;
-  double side_, cosine_, sine_;
 };
 
 class SplineEdges final : public ceres::CostFunction {
@@ -94,7 +58,7 @@ class SplineEdges final : public ceres::CostFunction {
               bool mirror,
               const SplineEdgesStart& start)
       : space_(std::move(space)),
-        table_(space_),
+        spans_(SpansOf(space_)),
         loss_(loss),
         held_(start.first_pose),
         is_first_(!start.own_pose) {
@@ -137,12 +101,15 @@ class SplineEdges final : public ceres::CostFunction {
   void AddEdge(const EdgeSamples& samples, bool is_upper, const SplineEdgesStart& start) {
     const Pose& pose = start.own_pose.value_or(start.first_pose);
     const EdgeFrame frame(PlaceEdge(held_, held_.data(), pose.data(), is_upper).pose, is_upper);
+    const std::vector<Piece> pieces = PiecesOf(spans_, space_.degree, start.coefficients);
     Edge edge{samples, is_upper, {}};
     edge.directions.reserve(samples.points.size());
+    size_t span = 0;
     for (const Eigen::Vector2d& point : samples.points) {
-      const BasisRow row = table_.At(frame.InSpline(point).x());
-      edge.directions.push_back(
-          frame.Direction(SlopeAt(row, space_.degree, start.coefficients.data())));
+      const double u = frame.InSpline(point).x();
+      span = FindSpan(spans_, u, span);
+      const double t = (u - spans_[span].centre) * spans_[span].scale;
+      edge.directions.push_back(frame.Direction(Horner<kMaxSplineDegree>(pieces[span].slope, t)));
     }
     edges_.push_back(std::move(edge));
   }
@@ -158,27 +125,29 @@ class SplineEdges final : public ceres::CostFunction {
 
   [[nodiscard]] double Squares(const Eigen::VectorXd& coefficients,
                                const std::vector<EdgePlacement>& places) const {
+    const std::vector<Piece> pieces = PiecesOf(spans_, space_.degree, coefficients);
     double sum = 0;
     for (size_t e = 0; e < edges_.size(); ++e) {
       const EdgeFrame frame(places[e].pose, edges_[e].is_upper);
-      sum += SquaresOf(edges_[e], frame, coefficients.data());
+      WithDegree(space_.degree,
+                 [&](auto degree) { sum += SquaresOf<degree()>(edges_[e], frame, pieces); });
     }
     return sum;
   }
 
+  template <int Degree>
   [[nodiscard]] double SquaresOf(const Edge& edge,
                                  const EdgeFrame& frame,
-                                 const double* coefficients) const {
+                                 const std::vector<Piece>& pieces) const {
     double sum = 0;
+    size_t span = 0;
     for (int i = 0; i < edge.samples.size(); ++i) {
       const Eigen::Vector2d p = frame.InSpline(edge.samples.points[i]);
-      const BasisRow row = table_.At(p.x());
-      double above = p.y();
-      for (int j = 0; j <= space_.degree; ++j) {
-        above -= row.value[j] * coefficients[row.first + j];
-      }
-      const double d = above * frame.Cosine(edge.directions[i]);
-      const double r = Soften(loss_, edge.samples.weights[i] * frame.Off(d)).value;
+      span = FindSpan(spans_, p.x(), span);
+      const double t = (p.x() - spans_[span].centre) * spans_[span].scale;
+      const double above = p.y() - Horner<Degree>(pieces[span].value, t);
+      const double off = frame.Off(above * frame.Cosine(edge.directions[i]));
+      const double r = Soften(loss_, edge.samples.weights[i] * off).value;
       sum += r * r;
     }
     return sum;
@@ -187,58 +156,51 @@ class SplineEdges final : public ceres::CostFunction {
   [[nodiscard]] NormalEquations Assemble(const Eigen::VectorXd& coefficients,
                                          const std::vector<EdgePlacement>& places) const {
     const int size = Columns();
+    const std::vector<Piece> pieces = PiecesOf(spans_, space_.degree, coefficients);
     NormalEquations equations{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0};
     for (size_t e = 0; e < edges_.size(); ++e) {
       const EdgeFrame frame(places[e].pose, edges_[e].is_upper);
       const int first_place = space_.size() + kEdgeSize * static_cast<int>(e);
-      Accumulate(edges_[e], frame, coefficients.data(), first_place, equations);
+      WithDegree(space_.degree, [&](auto degree) {
+        AddPoints<degree()>(edges_[e], frame, pieces, first_place, equations);
+      });
     }
     return equations;
   }
 
-  // Points of one span share their columns: they are summed in a small matrix of fixed size.
-  void Accumulate(const Edge& edge,
-                  const EdgeFrame& frame,
-                  const double* coefficients,
-                  int first_place,
-                  NormalEquations& equations) const {
-    LocalMatrix local = LocalMatrix::Zero();
-    int first = -1;
+  template <int Degree>
+  void AddPoints(const Edge& edge,
+                 const EdgeFrame& frame,
+                 const std::vector<Piece>& pieces,
+                 int first_place,
+                 NormalEquations& equations) const {
+    using Sums = SpanSums<Degree, kExtra>;
+    Sums sums;
+    size_t span = 0;
+    const auto flush = [&] {
+      const auto columns = frame.Columns<Degree>(spans_[span], pieces[span]);
+      equations.Add(sums.AllProducts(), columns, static_cast<int>(span), first_place);
+      sums = Sums();
+    };
     for (int i = 0; i < edge.samples.size(); ++i) {
-      const Eigen::Vector2d& point = edge.samples.points[i];
-      const Eigen::Vector2d p = frame.InSpline(point);
-      const SplineDistance distance = DistanceFrom(
-          table_.At(p.x()), space_.degree, coefficients, p.y(), frame.Cosine(edge.directions[i]));
-      if (distance.first != first) {
-        Flush(local, first, first_place, equations);
-        first = distance.first;
+      const Eigen::Vector2d p = frame.InSpline(edge.samples.points[i]);
+      const size_t here = FindSpan(spans_, p.x(), span);
+      if (here != span) {
+        flush();
+        span = here;
       }
-      const double weight = edge.samples.weights[i];
-      const SoftResidual r = Soften(loss_, weight * frame.Off(distance.d));
-      LocalRow row = LocalRow::Zero();
-      for (int j = 0; j <= space_.degree; ++j) row(j) = distance.d_c[j];
-      frame.PoseColumns(distance, edge.directions[i], point, p, row.data() + kMaxSplineDegree + 1);
-      row *= r.slope * frame.InPhoto(weight);
-      row(kLocalSize - 1) = r.value;
-      for (int k = 0; k < kLocalSize; ++k) local.col(k) += row(k) * row;
+      const double t = (p.x() - spans_[span].centre) * spans_[span].scale;
+      const double above = p.y() - Horner<Degree>(pieces[span].value, t);
+      const double slope = Horner<Degree - 1>(pieces[span].slope, t);
+      const Eigen::Vector2d& direction = edge.directions[i];
+      const double cosine = frame.Cosine(direction), weight = edge.samples.weights[i];
+      const SoftResidual r = Soften(loss_, weight * frame.Off(above * cosine));
+      const double w = r.slope * frame.InPhoto(weight);
+      const double by_angle =
+          above * frame.CosineByAngle(direction) + cosine * frame.AboveByAngle(p, slope);
+      sums.Add(t, -w * cosine, {w * by_angle, w, r.value});
     }
-    Flush(local, first, first_place, equations);
-  }
-
-  void Flush(LocalMatrix& local, int first, int first_place, NormalEquations& equations) const {
-    std::array<int, kLocalSize> column{};
-    for (int j = 0; j <= kMaxSplineDegree; ++j) column[j] = j <= space_.degree ? first + j : -1;
-    for (int k = 0; k < kEdgeSize; ++k) column[kMaxSplineDegree + 1 + k] = first_place + k;
-    constexpr int kResidual = kLocalSize - 1;
-    for (int i = 0; first >= 0 && i < kResidual; ++i) {
-      if (column[i] < 0) continue;
-      for (int j = 0; j < kResidual; ++j) {
-        if (column[j] >= 0) equations.matrix(column[i], column[j]) += local(i, j);
-      }
-      equations.right(column[i]) += local(i, kResidual);
-    }
-    equations.squares += local(kResidual, kResidual);
-    local.setZero();
+    flush();
   }
 
   // J^T J = S V diag(lambda) V^T S, so sqrt(lambda) V^T S is a Jacobian with the same normal
@@ -312,7 +274,7 @@ class SplineEdges final : public ceres::CostFunction {
   }
 
   SplineSpace space_;
-  BasisTable table_;
+  std::vector<Span> spans_;
   Loss loss_;
   Pose held_;  // of the first photograph: where the spline's frame is
   bool is_first_;

@@ -6,29 +6,6 @@
 
 namespace bladecurve {
 
-double SlopeAt(const BasisRow& row, int degree, const double* coefficients) {
-  double slope = 0;
-  for (int j = 0; j <= degree; ++j) slope += row.slope[j] * coefficients[row.first + j];
-  return slope;
-}
-
-SplineDistance DistanceFrom(
-    const BasisRow& row, int degree, const double* coefficients, double v, double cosine) {
-  double above = v, slope = 0;
-  SplineDistance distance;
-  for (int j = 0; j <= degree; ++j) {
-    const double c = coefficients[row.first + j];
-    above -= row.value[j] * c;
-    slope += row.slope[j] * c;
-    distance.d_c[j] = -cosine * row.value[j];
-  }
-  distance.first = row.first;
-  distance.d = above * cosine;
-  distance.d_v = cosine;
-  distance.d_u = -slope * cosine;
-  return distance;
-}
-
 Eigen::Vector2d EndInBlade(double reach, double zero) {
   return {reach, -reach * std::tan(zero / 2)};
 }
@@ -46,7 +23,11 @@ SplineCoefficients CoefficientsOf(const SplineSpace& space,
   for (int j = 0; j < n - 1; ++j) t(j) = free[j];
   const BasisRow row = EvalBasis(space, end.x());
   Eigen::VectorXd basis = Eigen::VectorXd::Zero(n);
-  for (int j = 0; j <= space.degree; ++j) basis(row.first + j) = row.value[j];
+  double slope = 0;
+  for (int j = 0; j <= space.degree; ++j) {
+    basis(row.first + j) = row.value[j];
+    slope += row.slope[j] * t(row.first + j);
+  }
   const std::vector<double> abscissae = GrevilleAbscissae(space);
   const Eigen::VectorXd along = Eigen::Map<const Eigen::VectorXd>(abscissae.data(), n) / end.x();
   const double lift = end.y() - basis.dot(t);
@@ -55,7 +36,7 @@ SplineCoefficients CoefficientsOf(const SplineSpace& space,
   c.jacobian = Eigen::MatrixXd::Zero(n, n + 1);
   c.jacobian.leftCols(n - 1).setIdentity();
   c.jacobian.leftCols(n - 1) -= along * basis.head(n - 1).transpose();
-  c.jacobian.col(n - 1) = -along * (SlopeAt(row, space.degree, t.data()) + lift / end.x());
+  c.jacobian.col(n - 1) = -along * (slope + lift / end.x());
   c.jacobian.col(n) = along;
   return c;
 }
