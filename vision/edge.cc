@@ -21,6 +21,8 @@ constexpr double kLeastClear =
     0.15;  // share of stations with a clear step; noise alone reaches a tenth
 constexpr double kLeastPlaced =
     0.3;  // share of windows that place the edge; below, most of it is a guess
+constexpr double kMostBroken =
+    0.25;  // share of the edge without a break; beyond, two lines were taken for one
 constexpr double kGuessSmoothing = 3;  // px: rounds the corners of the guessed polyline
 
 void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
@@ -50,6 +52,24 @@ void RefuseIfUnseen(double share_seen, double least_share) {
                     " % of its edge; use another background or light");
 }
 
+// The longest stretch within the edge where its points stray, as a share of its length.
+double LongestGap(const LocatedEdge& edge) {
+  size_t gap = 0, last = edge.points.size();
+  for (size_t i = 0; i < edge.points.size(); ++i) {
+    if (!edge.points[i].inlier) continue;
+    if (last < i) gap = std::max(gap, i - last - 1);
+    last = i;
+  }
+  return static_cast<double>(gap) / static_cast<double>(std::max(edge.points.size(), size_t{1}));
+}
+
+void RefuseIfBroken(double gap) {
+  if (gap <= kMostBroken) return;
+  throw Refused(Reason::kLowContrast,
+                "edge: lost along " + std::to_string(std::lround(100 * gap)) +
+                    " % of the blade; use another background or light");
+}
+
 }  // namespace
 
 LocatedEdge LocateEdge(const cv::Mat& grey,
@@ -72,7 +92,11 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   RefuseIfUnseen(fit.seen, kLeastPlaced);
   LocatedEdge edge = PointsFromFit(fit, options);
   edge.overexposed = fit.overexposed;
-  edge.ambiguity = std::max(chosen.ambiguity, 1 - chosen.support);
+  const double gap = LongestGap(edge);
+  RefuseIfBroken(gap);
+  edge.ambiguity = std::max({chosen.ambiguity, 1 - chosen.support, gap / kMostBroken});
+  edge.rival_px = chosen.rival_px;
+  edge.rival_path_px = chosen.rival;
   edge.common_sigma_px = CommonSigma(fit, tone, chosen, options.blur_px.has_value());
   return edge;
 }

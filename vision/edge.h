@@ -49,7 +49,9 @@ struct LocatedEdge {
   double correlation_px = 0;   // neighbours closer than this are not independent
   double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow
   double ambiguity =
-      0;  // 0: one clear transition; towards 1: several about as good (bevel, shadow)
+      0;                // 0: one clear transition; towards 1: several about as good (bevel, shadow)
+  double rival_px = 0;  // from the edge to the other transition, positive out of the blade
+  std::vector<Eigen::Vector2d> rival_path_px;  // the other transition, to a few px
 };
 
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw

@@ -237,6 +237,15 @@ std::vector<double> FreeDistances(const StepMap& map, const StepLine& line, int 
   return typical;
 }
 
+// The line in the picture, smoothed.
+std::vector<Eigen::Vector2d> PointsOn(const Survey& survey,
+                                      const StepLine& line,
+                                      double stiffness) {
+  std::vector<double> rows = SmoothRows(survey.map, line, stiffness);
+  for (double& row : rows) row = survey.Across(row);
+  return Shifted(survey.path, Spread(rows, survey.map.layout.spacing, survey.path.size()));
+}
+
 // The best other line that might be the border: one further out, or one within where the band
 // between them may be a shadow, that is darker than both its sides.
 StepLine RivalOf(const Survey& survey, const StepLine& line, double search_px) {
@@ -260,12 +269,14 @@ void CompareWithRival(const Survey& survey,
                       const StepLine& line,
                       double search_px,
                       ChosenTransition& chosen) {
-  constexpr double kAsHigh = 0.5;  // of the line's height; lower ones are texture
+  constexpr double kAsHigh = 0.5;          // of the line's height; lower ones are texture
+  constexpr double kRivalStiffness = 400;  // a guess, not an edge
   const StepLine rival = RivalOf(survey, line, search_px);
   for (int station = 0; station < survey.map.stations; ++station) {
     chosen.rival_px += (rival.rows[Index(station)] - line.rows[Index(station)]) /
                        static_cast<double>(survey.map.stations);
   }
+  chosen.rival = PointsOn(survey, rival, kRivalStiffness);
   const double as_high = std::abs(TypicalHeight(survey.map, rival)) /
                          std::max(kAsHigh * std::abs(TypicalHeight(survey.map, line)), 1e-6);
   chosen.ambiguity =
@@ -302,9 +313,7 @@ ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, do
   chosen.inner_px = Spread(FreeDistances(survey.map, line, -1), spacing, samples);
   chosen.outer_px = Spread(FreeDistances(survey.map, line, 1), spacing, samples);
   constexpr double kStiffness = 4;  // bends within three stations are noise
-  std::vector<double> rows = SmoothRows(survey.map, line, kStiffness);
-  for (double& row : rows) row = survey.Across(row);
-  chosen.points = Shifted(survey.path, Spread(rows, spacing, samples));
+  chosen.points = PointsOn(survey, line, kStiffness);
   return chosen;
 }
 

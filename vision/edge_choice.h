@@ -18,6 +18,7 @@ struct ChosenTransition {
   double support = 0;            // share of the path along which the transition is seen, 0 to 1
   double ambiguity = 0;          // 0: no other line comes near; 1: another one is as good
   double rival_px = 0;           // where that other line lies, positive out of the blade
+  std::vector<Eigen::Vector2d> rival;  // the other line
 };
 
 inline constexpr double kNoTransition = 1e3;

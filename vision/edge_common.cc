@@ -57,7 +57,7 @@ double BloomSigma(const EdgeFit& fit, bool blur_known) {
 
 // Nothing for a rival that is much worse; for one that is as good, a third of the way to it.
 double RivalSigma(const ChosenTransition& chosen) {
-  constexpr double kNoRival = 0.6, kShare = 0.33;
+  constexpr double kNoRival = 0.45, kShare = 0.33;
   const double doubt = std::max(chosen.ambiguity - kNoRival, 0.0) / (1 - kNoRival);
   return doubt * kShare * std::abs(chosen.rival_px);
 }

@@ -3,8 +3,12 @@
 #include "vision/edge_pair.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
+#include "vision/edge_colour.h"
+#include "vision/edge_shadow.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -55,39 +59,107 @@ bool Glares(const LocatedEdge& edge, const LocatedEdge& other) {
          other.ambiguity < kOneStep && edge.blur_px < kSharper * other.blur_px;
 }
 
-// A glaring blade's edge once more, with the blur that the other blade shows.
-void TieBlur(const Photo& photo,
-             const ToneCurve& tone,
-             const EdgeGuess& guess,
-             const LocatedEdge& other,
-             LocatedEdge* edge) {
-  if (!Glares(*edge, other)) return;
-  EdgeOptions options;
-  options.blur_px = other.blur_px;
-  *edge = LocateEdge(photo.grey(), tone, guess, options);
+// A transition beside the edge that could be the border instead, with a dark band between: shadow
+// or bevel.
+bool HasDarkBand(const LocatedEdge& edge) {
+  constexpr double kAsGood = 0.45;  // ambiguity; below, the other is no match
+  constexpr double kNarrowest = 4;  // px; narrower bands are blur on both sides
+  return edge.ambiguity > kAsGood && std::abs(edge.rival_px) >= kNarrowest;
 }
 
-LocatedEdge LocateOrTrace(const Photo& photo,
-                          const ToneCurve& tone,
-                          const Scene& scene,
-                          const EdgeGuess& guess) {
-  try {
-    return LocateEdge(photo.grey(), tone, guess);
-  } catch (const Refused&) {
-    return AsTraced(scene, guess.blade_on_left ? scene.left : scene.right, guess.blade_on_left);
-  }
+std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
+  std::vector<Vector2d> path;
+  for (const LocatedEdgePoint& point : edge.points) path.push_back(point.trend_px);
+  return path;
 }
+
+// Looks for the edges of one photograph; decodes its colours only if grey leaves a doubt.
+class BladeLocator {
+ public:
+  BladeLocator(const Photo& photo, const ToneCurve& tone, const Scene& scene)
+      : photo_(photo), tone_(tone), scene_(scene) {}
+
+  [[nodiscard]] LocatedEdge Locate(bool left) {
+    const EdgeGuess guess = GuessFor(scene_, left);
+    LocatedEdge edge = InBestChannel(guess);
+    return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), guess) : edge;
+  }
+
+  [[nodiscard]] LocatedEdge LocateOrTrace(bool left) {
+    try {
+      return Locate(left);
+    } catch (const Refused&) {
+      return AsTraced(scene_, left ? scene_.left : scene_.right, left);
+    }
+  }
+
+  // A glaring blade's edge once more, with the blur that the other blade shows.
+  [[nodiscard]] LocatedEdge WithBlurOf(const LocatedEdge& other, LocatedEdge edge, bool left) {
+    if (!Glares(edge, other)) return edge;
+    EdgeOptions options;
+    options.blur_px = other.blur_px;
+    try {
+      return LocateEdge(photo_.grey(), tone_, GuessFor(scene_, left), options);
+    } catch (const Refused&) {
+      return edge;  // too little is left without the white pixels; its sigma tells of the glare
+    }
+  }
+
+ private:
+  // Where grey hides the edge, the mixture of the colours in which blade and background differ most
+  // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
+  // the step at the edge alone.
+  [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
+    constexpr double kGain = 1.5;  // times better separated; less is no other picture
+    try {
+      return LocateEdge(photo_.grey(), tone_, guess);
+    } catch (const Refused&) {
+      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
+      return LocateEdgeInView(view, guess);
+    }
+  }
+
+  // Of the two sides of a dark band, the inner one is the blade's border if the band has the
+  // background's colour, the outer one if it has the blade's.
+  [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, const EdgeGuess& guess) {
+    const SceneBlade& blade = guess.blade_on_left ? scene_.left : scene_.right;
+    const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px);
+    if (band == DarkBand::kUnknown) return edge;
+    const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
+    constexpr double kReach = 0.45, kLeast = 3;  // of the way to the other side, px
+    EdgeGuess settled = guess;
+    settled.path_px = want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px;
+    settled.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
+    try {
+      return LocateEdge(photo_.grey(), tone_, settled);
+    } catch (const Refused&) {
+      return edge;
+    }
+  }
+
+  [[nodiscard]] const cv::Mat& Colours() {
+    if (colours_.empty())
+      colours_ = photo_.DecodeColour(std::max(photo_.grey().cols, photo_.grey().rows));
+    return colours_;
+  }
+
+  const Photo& photo_;
+  const ToneCurve& tone_;
+  const Scene& scene_;
+  cv::Mat colours_;
+};
 
 }  // namespace
 
 BladeEdges LocateBlades(const Photo& photo,
-                      const ToneCurve& tone,
-                      const Scene& scene,
-                      bool upper_on_left) {
-  const EdgeGuess upper = GuessFor(scene, upper_on_left), lower = GuessFor(scene, !upper_on_left);
-  BladeEdges edges{LocateEdge(photo.grey(), tone, upper), LocateOrTrace(photo, tone, scene, lower)};
-  TieBlur(photo, tone, upper, edges.lower, &edges.upper);
-  TieBlur(photo, tone, lower, edges.upper, &edges.lower);
+                        const ToneCurve& tone,
+                        const Scene& scene,
+                        bool upper_on_left) {
+  BladeLocator locator(photo, tone, scene);
+  BladeEdges edges{locator.Locate(upper_on_left), locator.LocateOrTrace(!upper_on_left)};
+  edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
+  edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
   return edges;
 }
 

@@ -17,8 +17,8 @@ struct BladeEdges {
 // lower edge may be the trace itself where nothing better is to be had: ambiguity 1, sigma as large
 // as the trace's. Throws Refused as LocateEdge does for the upper edge.
 [[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
-                                    const ToneCurve& tone,
-                                    const Scene& scene,
-                                    bool upper_on_left);
+                                      const ToneCurve& tone,
+                                      const Scene& scene,
+                                      bool upper_on_left);
 
 }  // namespace bladecurve

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// Edges that grey hides and colour shows, and dark bands told apart by their colour.
+#include "vision/edge_colour.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/edge_images.h"
+#include "vision/edge_shadow.h"
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::Gaussian;
+
+constexpr int kSide = 200;
+constexpr double kNoise = 1.5;  // grey values, each channel by itself
+
+const Vector2d kNormal(std::cos(0.4), std::sin(0.4));  // out of the blade
+constexpr double kOffset = 132;                        // of the blade's border along it
+
+double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
+
+// BGR whose light, 0 to 255 linear, depends on the distance from the blade's border.
+cv::Mat Coloured(Gaussian& random, const std::function<Vector3d(double)>& light) {
+  cv::Mat picture(kSide, kSide, CV_8UC3);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const Vector3d at = light(kNormal.dot(Vector2d(x, y)) - kOffset);
+      for (int c = 0; c < 3; ++c)
+        picture.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(at[c] + kNoise * random());
+    }
+  }
+  return picture;
+}
+
+EdgeGuess GuessOff(double px) {
+  const Vector2d along(-kNormal.y(), kNormal.x());
+  const Vector2d middle = (kOffset + px) * kNormal + 40 * along;
+  EdgeGuess guess;
+  guess.path_px = {middle - 70 * along, middle + 70 * along};
+  guess.blade_on_left = false;  // left of (-ny, nx) is (nx, ny): background
+  return guess;
+}
+
+double MeanOffset(const LocatedEdge& edge) {
+  double sum = 0, count = 0;
+  for (const LocatedEdgePoint& point : edge.points) {
+    if (!point.inlier) continue;
+    sum += kNormal.dot(point.point_px) - kOffset;
+    ++count;
+  }
+  return sum / count;
+}
+
+TEST(ColourView, ShowsAnEdgeBetweenColoursOfOneGrey) {
+  constexpr double kClose = 0.03;                             // px
+  const Vector3d steel(120, 110, 100), drape(150, 100, 108);  // luma 108, within one grey value
+  Gaussian random(1);
+  const cv::Mat bgr =
+      Coloured(random, [&](double d) { return steel + Smooth(d) * (drape - steel); });
+  cv::Mat grey;
+  cv::cvtColor(bgr, grey, cv::COLOR_BGR2GRAY);
+  const ToneCurve linear = testing::GammaCurve(1);
+  const EdgeGuess guess = GuessOff(2);
+  EXPECT_THROW((void)LocateEdge(grey, linear, guess), Refused);
+  EXPECT_LT(GreySeparation(grey, linear, guess), 1);
+
+  const ColourView view = ViewWhereSidesDiffer(bgr, linear, guess);
+  EXPECT_GT(view.separation, 5);
+  EXPECT_NEAR(MeanOffset(LocateEdgeInView(view, guess)), 0, kClose);
+}
+
+TEST(ColourView, SaysWhenColourDoesNotHelp) {
+  const Vector3d steel(100, 100, 100);
+  Gaussian random(2);
+  const cv::Mat bgr = Coloured(random, [&](double) { return steel; });
+  const ColourView view = ViewWhereSidesDiffer(bgr, testing::GammaCurve(1), GuessOff(0));
+  EXPECT_LT(view.separation, 1);
+}
+
+// An edge at the border of a band that begins 9 px further in.
+LocatedEdge OutsideABand() {
+  constexpr double kWide = 9;
+  const Vector2d along(-kNormal.y(), kNormal.x());
+  LocatedEdge edge;
+  for (int i = -60; i <= 60; ++i) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = kOffset * kNormal + (40 + i) * along;
+    point.normal = kNormal;
+    edge.points.push_back(point);
+  }
+  edge.rival_px = -kWide;
+  return edge;
+}
+
+DarkBand Judge(const Vector3d& blade, const Vector3d& band, const Vector3d& ground) {
+  Gaussian random(3);
+  const cv::Mat bgr = Coloured(random, [&](double d) {
+    return blade + Smooth(d + 9) * (band - blade) + Smooth(d) * (ground - band);
+  });
+  constexpr double kBladePx = 60;
+  return JudgeDarkBand(bgr, testing::GammaCurve(1), OutsideABand(), kBladePx);
+}
+
+TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
+  const Vector3d steel(170, 165, 160), wood(60, 110, 190), brass(90, 150, 200);
+  EXPECT_EQ(Judge(steel, 0.3 * wood, wood), DarkBand::kShadow);
+  EXPECT_EQ(Judge(steel, 0.3 * steel, wood), DarkBand::kMetal);
+  EXPECT_EQ(Judge(brass, 0.2 * brass, steel), DarkBand::kMetal);
+  const Vector3d skylight(8, 5, 2);  // shadows are a little bluer than the ground in the sun
+  EXPECT_EQ(Judge(steel, 0.3 * wood + skylight, wood), DarkBand::kShadow);
+}
+
+TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
+  const Vector3d steel(170, 168, 166), paper(220, 220, 216);
+  EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vision/edge.h"
+#include "vision/tone_curve.h"
+
+namespace bladecurve {
+
+// What a dark band along a blade's edge is.
+enum class DarkBand {
+  kShadow,  // the colour of the background, only darker
+  kMetal,   // the blade's own colour: its bevel
+  kUnknown  // blade and background are alike in colour
+};
+
+// Judges the band between a located edge and its rival by colour. bgr: CV_8UC3, the whole
+// photograph at full resolution; blade_px: how wide the blade is.
+[[nodiscard]] DarkBand JudgeDarkBand(const cv::Mat& bgr,
+                                     const ToneCurve& tone,
+                                     const LocatedEdge& edge,
+                                     double blade_px);
+
+}  // namespace bladecurve
