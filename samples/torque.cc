@@ -22,6 +22,7 @@
 #include "samples/material_choice.h"
 #include "samples/output_files.h"
 #include "samples/torque_plot.h"
+#include "samples/torque_realtime.h"
 
 namespace bladecurve {
 namespace {
@@ -35,7 +36,9 @@ struct TorqueCommand {
   double rate_hz = 1000;      // a haptic loop's
   std::optional<double> x_edge_mm, x_end_mm, radius_mm;
   Fluctuation fluctuation;
-  bool quiet = false;
+  double seconds = 0;            // of --realtime; 0: one closing
+  double damping_n_s_per_m = 5;  // of a relaxed finger and a light device
+  bool is_real_time = false, quiet = false;
 };
 
 std::vector<double> ParseAngles(const std::string& text) {
@@ -116,79 +119,165 @@ void Deliver(const std::string& file, const std::string& text) {
   }
 }
 
-void RunTorque(const TorqueCommand& command) {
+// Drives the model in real time and gives the motion that the simulated hand made of the wanted
+// one.
+std::vector<MotionSample> MotionInRealTime(const TorqueCommand& command,
+                                           const TorqueModel& model,
+                                           const PlateSpan& span,
+                                           const std::vector<MotionSample>& wanted) {
+  RealTimeOptions options;
+  options.rate_hz = command.rate_hz;
+  options.seconds = command.seconds;
+  options.radius_mm = command.radius_mm.value_or(0);
+  options.hand.damping_n_s_per_mm = command.damping_n_s_per_m / 1000;
+  const Material& material = model.material();
+  const HeldScissors held{model.blade(), span, material.thickness_mm, options.radius_mm};
+  RealTimeRun run = RunRealTime(model, wanted, options);
+  if (!command.quiet) {
+    std::cerr << RealTimeSummary(run,
+                                 options,
+                                 LargestStableStiffness(held, options.hand, options.rate_hz),
+                                 material.force_deflection.initial_stiffness_n_per_mm());
+  }
+  return run.motion;
+}
+
+void RequirePossible(const TorqueCommand& command) {
   if (command.radius_mm) RequirePositive("--radius-mm", *command.radius_mm);
+  if (!command.plot.empty() && !command.plot.ends_with(".svg")) {
+    throw std::invalid_argument(
+        "--plot: pictures are SVG here; give a name that ends in .svg, not " + command.plot);
+  }
+  if (!command.is_real_time) return;
+  RequirePositive("--damping-n-s-per-m", command.damping_n_s_per_m);
+  if (command.seconds != 0) RequirePositive("--seconds", command.seconds);
+  if (!command.radius_mm)
+    throw std::invalid_argument("--realtime: a hand holds a handle; give --radius-mm");
+  if (!command.motion.empty())
+    throw std::invalid_argument("--realtime: the hand makes the motion; give --close-deg");
+}
+
+void RunTorque(const TorqueCommand& command) {
+  RequirePossible(command);
   const double radius_mm = command.radius_mm.value_or(std::numeric_limits<double>::quiet_NaN());
   const BladeFile blade = ReadBladeFile(command.blade);
   const Material material = ChooseMaterial(command.material);
-  const std::vector<MotionSample> motion = MotionOf(command, radius_mm);
+  std::vector<MotionSample> motion = MotionOf(command, radius_mm);
   const PlateSpan span = SpanOf(command, blade.curve, material, motion);
   std::optional<FrictionCurve> friction;
   if (!command.friction.empty()) friction = FrictionOfTable(ReadNumberTable(command.friction));
+  const TorqueModel model(blade.curve, material, span, OptionsOf(command));
 
-  const CutRun run = RunCut(
-      TorqueModel(blade.curve, material, span, OptionsOf(command)), motion, radius_mm, friction);
-  const std::string head = HeadLine(blade, material, span, command.policy);
-  if (!command.quiet) std::cerr << head << CutSummary(run);
+  if (!command.quiet) std::cerr << HeadLine(blade, material, span, command.policy);
+  if (command.is_real_time) motion = MotionInRealTime(command, model, span, motion);
+  const CutRun run = RunCut(model, motion, radius_mm, friction);
+  if (!command.quiet) std::cerr << CutSummary(run);
   Deliver(command.csv, CutCsv(run));
   Deliver(command.plot, TorquePlotSvg(run, blade.name + " through " + material.name));
 }
 
 void AddPlateFlags(CLI::App& sub, TorqueCommand& command) {
+  constexpr const char* kGroup = "Blade and plate";
   std::string names;
   for (const std::string& name : MaterialNames()) names += (names.empty() ? "" : ", ") + name;
-  sub.add_option("blade", command.blade, "NAME.blade.json, or a plugin exported from one")
+  sub.add_option("BLADE", command.blade, "NAME.blade.json, or a plugin exported from one")
       ->required();
-  sub.add_option("--material", command.material, names + ", or a material file")->required();
-  sub.add_option(
-      "--x-edge-mm",
-      command.x_edge_mm,
-      "from the pivot to where the plate begins (default: touched after a tenth of the way)");
-  sub.add_option("--x-end-mm", command.x_end_mm, "to where it ends (default: 23 mm further)");
+  sub.add_option("--material", command.material, names + ", or a material file")
+      ->required()
+      ->group(kGroup);
+  sub.add_option("--x-edge-mm",
+                 command.x_edge_mm,
+                 "from the pivot to where the plate begins (default: touched after a tenth of the "
+                 "way)")
+      ->group(kGroup);
+  sub.add_option("--x-end-mm", command.x_end_mm, "to where it ends (default: 23 mm further)")
+      ->group(kGroup);
   sub.add_option("--policy",
                  command.policy,
-                 "the plate's deflection while it is cut: constant or criterion")
-      ->check(CLI::IsMember({"constant", "criterion"}));
+                 "the plate's deflection while it is cut: constant (default) or criterion")
+      ->check(CLI::IsMember({"constant", "criterion"}))
+      ->group(kGroup);
+}
+
+void AddHandleFlags(CLI::App& sub, TorqueCommand& command) {
+  constexpr const char* kGroup = "Handle";
   sub.add_option("--radius-mm",
                  command.radius_mm,
-                 "from the pivot to the handle; without it force_n stays empty");
-  sub.add_option(
-      "--friction", command.friction, "CSV of the empty scissors: theta_deg, closing_n, opening_n");
+                 "from the pivot to the handle; without it force_n stays empty")
+      ->group(kGroup);
+  sub.add_option("--friction",
+                 command.friction,
+                 "CSV of the empty scissors: theta_deg, closing_n, perhaps opening_n")
+      ->group(kGroup);
 }
 
 void AddFluctuationFlags(CLI::App& sub, Fluctuation& fluctuation) {
-  sub.add_option("--rupture-mm",
-                 fluctuation.rupture_mm,
-                 "the torque of cutting fluctuates: mean length of a rupture (default: none)");
+  constexpr const char* kGroup = "Fluctuation of the cutting torque";
+  sub.add_option("--rupture-mm", fluctuation.rupture_mm, "mean length of a rupture (default: none)")
+      ->group(kGroup);
   sub.add_option("--rupture-spread",
                  fluctuation.spread,
                  "ruptures vary by up to this share of their mean, below 1")
-      ->capture_default_str();
-  sub.add_option("--seed", fluctuation.seed, "of the ruptures")->capture_default_str();
+      ->capture_default_str()
+      ->group(kGroup);
+  sub.add_option("--seed", fluctuation.seed, "of the ruptures")
+      ->capture_default_str()
+      ->group(kGroup);
 }
 
 void AddMotionFlags(CLI::App& sub, TorqueCommand& command) {
+  constexpr const char* kGroup = "Motion: one of the first two";
   sub.add_option("--close-deg",
                  command.close_deg,
-                 "opening angles A:B to close from and to; A:B:C opens again");
-  sub.add_option("--rate-deg-per-s", command.rate_deg_per_s, "how fast")->capture_default_str();
-  sub.add_option("--rate-hz", command.rate_hz, "samples a second")->capture_default_str();
+                 "opening angles A:B to close from and to; A:B:C opens again")
+      ->group(kGroup);
   sub.add_option("--motion",
                  command.motion,
-                 "CSV of a recorded motion: t_s, theta_deg, pivot_mm, perhaps force_n");
+                 "CSV of a recorded motion: t_s, theta_deg, perhaps pivot_mm; a force_n or "
+                 "torque_nmm in it is compared with the predicted one")
+      ->group(kGroup);
+  sub.add_option("--rate-deg-per-s", command.rate_deg_per_s, "how fast to close")
+      ->capture_default_str()
+      ->group(kGroup);
+  sub.add_option("--rate-hz", command.rate_hz, "samples a second")
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void AddRealTimeFlags(CLI::App& sub, TorqueCommand& command) {
+  constexpr const char* kGroup = "Real time";
+  sub.add_flag("--realtime",
+               command.is_real_time,
+               "close by a simulated hand against the clock, at --rate-hz; tells times, missed "
+               "deadlines and the stiffest plate that is stable")
+      ->group(kGroup);
+  sub.add_option("--seconds",
+                 command.seconds,
+                 "how long, through one plate after the other (default: one closing)")
+      ->group(kGroup);
+  sub.add_option("--damping-n-s-per-m", command.damping_n_s_per_m, "of hand and device")
+      ->capture_default_str()
+      ->group(kGroup);
+}
+
+void AddOutputFlags(CLI::App& sub, TorqueCommand& command) {
+  constexpr const char* kGroup = "Output";
+  sub.add_option("--csv", command.csv, "the curve as CSV; - for standard output")->group(kGroup);
+  sub.add_option("--plot", command.plot, "the curve as a picture, FILE.svg")->group(kGroup);
+  sub.add_flag("--quiet", command.quiet, "no summary")->group(kGroup);
 }
 
 }  // namespace
 
 void AddTorque(CLI::App& app, int* exit_code) {
   auto command = std::make_shared<TorqueCommand>();
-  CLI::App* sub = app.add_subcommand("torque", "Cut a plate and tell the torque.");
+  CLI::App* sub = app.add_subcommand("torque", "Cut a plate and tell the torque");
   AddPlateFlags(*sub, *command);
   AddMotionFlags(*sub, *command);
+  AddHandleFlags(*sub, *command);
   AddFluctuationFlags(*sub, command->fluctuation);
-  sub->add_option("--csv", command->csv, "the curve as CSV; - for standard output");
-  sub->add_option("--plot", command->plot, "the curve as a picture, FILE.svg");
-  sub->add_flag("--quiet", command->quiet, "no summary");
+  AddRealTimeFlags(*sub, *command);
+  AddOutputFlags(*sub, *command);
   sub->callback([command, exit_code] {
     RunTorque(*command);
     *exit_code = kExitOk;
