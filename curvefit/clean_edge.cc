@@ -181,9 +181,7 @@ Cleaning StartCleaning(const EdgeSamples& edge, const Pose& pose, bool is_upper)
     c.points.push_back({p.x(), p.y(), edge.weights[i] * edge.inflation});
   }
   std::vector<FlatPoint> sorted = c.points;
-  std::sort(sorted.begin(), sorted.end(), [](const FlatPoint& a, const FlatPoint& b) {
-    return a.u < b.u;
-  });
+  SortAlong(sorted);
   const int spans = std::clamp(static_cast<int>(edge.effective() / kSamplesPerSpan), 1, kMaxSpans);
   const int degree = std::clamp(static_cast<int>(edge.effective() / 2) - 1, 1, 3);
   c.space = ClampedSpace(degree,

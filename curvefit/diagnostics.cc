@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "curvefit/span_sums.h"
 #include "curvefit/span_table.h"
 #include "curvefit/spline_shape.h"
 #include "curvefit/statistics.h"
@@ -13,73 +14,114 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kRowSize = kMaxSplineDegree + 1;
-using RowValues = Eigen::Matrix<double, kRowSize, 1>;
-using RowMatrix = Eigen::Matrix<double, kRowSize, kRowSize>;
-
-// Derivatives of a point's whitened distance by the shape: the columns from `first` on that are not
-// 0.
-struct ShapeRow {
-  int first = 0;
-  RowValues values = RowValues::Zero();
-};
-
-class ShapeRows {
+// The upper edges' points as the shape's basis functions have them: those of the spline, or of a
+// straight line.
+class ShapePoints {
  public:
-  ShapeRows(const JointModel& model, const JointState& state) : is_spline_(model.space) {
-    if (!is_spline_) return;
+  ShapePoints(const JointModel& model, const JointState& state)
+      : space_(model.space.value_or(ClampedSpace(1, 0, 1, {}))),
+        spans_(SpansOf(space_)),
+        pieces_(spans_.size()),
+        straight_(!model.space) {
+    if (straight_) return;
     const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
-    degree_ = model.space->degree;
-    columns_ = model.space->size();
-    spans_ = SpansOf(*model.space);
     pieces_ =
-        PiecesOf(spans_, degree_, CoefficientsOf(*model.space, state.shape.data(), end).value);
+        PiecesOf(spans_, space_.degree, CoefficientsOf(space_, state.shape.data(), end).value);
   }
-  [[nodiscard]] int columns() const { return columns_; }
+  [[nodiscard]] const SplineSpace& space() const { return space_; }
+  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
 
-  // The rows of one edge; two for a straight line: 1 and x.
-  [[nodiscard]] std::vector<ShapeRow> Of(const EdgeSamples& edge, Pose pose) const {
-    if (!is_spline_) pose[kUpperAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
+  // Calls work(index of the point, of the span, t, weight of the curve there).
+  template <typename Work>
+  void ForEach(const EdgeSamples& edge, Pose pose, const Work& work) const {
+    if (straight_) pose[kUpperAngle] = (pose[kUpperAngle] + pose[kLowerAngle]) / 2;
     const BladeFrame frame(pose, true);
-    std::vector<ShapeRow> rows(edge.points.size());
     size_t span = 0;
     for (int i = 0; i < edge.size(); ++i) {
-      const Eigen::Vector2d p = frame(edge.points[i]);
-      ShapeRow& row = rows[static_cast<size_t>(i)];
-      if (is_spline_) {
-        span = FindSpan(spans_, p.x(), span);
-        const double t = (p.x() - spans_[span].centre) * spans_[span].scale;
-        const double slope = Horner<kMaxSplineDegree>(pieces_[span].slope, t);
-        row.first = static_cast<int>(span);
-        for (int j = 0; j <= degree_; ++j) {
-          row.values(j) = Horner<kMaxSplineDegree>(spans_[span].basis[j], t);
-        }
-        row.values /= std::sqrt(1 + slope * slope);
-      } else {
-        row.values.head<2>() << 1, p.x();
-      }
-      row.values *= edge.weights[i];
+      const double u = frame(edge.points[i]).x();
+      span = FindSpan(spans_, u, span);
+      const double t = (u - spans_[span].centre) * spans_[span].scale;
+      const double slope = Horner<kMaxSplineDegree>(pieces_[span].slope, t);
+      work(i, span, t, edge.weights[i] / std::sqrt(1 + slope * slope));
     }
-    return rows;
   }
 
  private:
-  bool is_spline_;
-  int degree_ = 1, columns_ = 2;
+  SplineSpace space_;
   std::vector<Span> spans_;
   std::vector<Piece> pieces_;
+  bool straight_;
 };
 
-// The inverse normal matrix, padded so that every row's block lies inside.
-Eigen::MatrixXd InverseNormal(const std::vector<std::vector<ShapeRow>>& rows, int columns) {
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(columns + kRowSize, columns + kRowSize);
-  for (const std::vector<ShapeRow>& edge : rows) {
-    for (const ShapeRow& row : edge) {
-      normal.block<kRowSize, kRowSize>(row.first, row.first) += row.values * row.values.transpose();
-    }
+template <int Degree>
+Eigen::Matrix<double, Degree + 1, Degree + 1> BasisOf(const Span& span) {
+  Eigen::Matrix<double, Degree + 1, Degree + 1> basis;  // powers of t by functions
+  for (int j = 0; j <= Degree; ++j) {
+    for (int k = 0; k <= Degree; ++k) basis(k, j) = span.basis[j][k];
+  }
+  return basis;
+}
+
+// The leverage of a point of weight 1 in each span, as powers of t up to twice the degree.
+template <int Degree>
+std::vector<std::array<double, 2 * Degree + 1>> LeverageOf(const FitData& data,
+                                                           const JointState& state,
+                                                           const ShapePoints& points) {
+  constexpr int kBasis = Degree + 1;
+  const std::vector<Span>& spans = points.spans();
+  std::vector<SpanSums<Degree, 0>> sums(spans.size());
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    points.ForEach(data.photos[p].upper, state.poses[p], [&](int, size_t span, double t, double w) {
+      sums[span].Add(t, w, {});
+    });
+  }
+  const int size = points.space().size();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+  for (size_t i = 0; i < spans.size(); ++i) {
+    const auto basis = BasisOf<Degree>(spans[i]);
+    const auto first = static_cast<Eigen::Index>(i);
+    normal.block<kBasis, kBasis>(first, first) += basis.transpose() * sums[i].AllProducts() * basis;
   }
   normal.diagonal().array() += 1e-13 * normal.diagonal().maxCoeff();  // spans without points
-  return normal.ldlt().solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
+  const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
+  std::vector<std::array<double, 2 * Degree + 1>> leverage(spans.size());
+  for (size_t i = 0; i < spans.size(); ++i) {
+    const auto basis = BasisOf<Degree>(spans[i]);
+    const auto first = static_cast<Eigen::Index>(i);
+    const Eigen::Matrix<double, kBasis, kBasis> form =
+        basis * inverse.block<kBasis, kBasis>(first, first) * basis.transpose();
+    leverage[i].fill(0);
+    for (int a = 0; a <= Degree; ++a) {
+      for (int b = 0; b <= Degree; ++b) leverage[i][a + b] += form(a, b);
+    }
+  }
+  return leverage;
+}
+
+template <int Degree>
+Influence LargestInfluence(const FitData& data,
+                           const JointState& state,
+                           const EdgeResiduals& residuals,
+                           const ShapePoints& points) {
+  const auto leverage_in = LeverageOf<Degree>(data, state, points);
+  Influence influence{0, 0, 0, 0};
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    const EdgeSamples& edge = data.photos[p].upper;
+    points.ForEach(edge, state.poses[p], [&](int i, size_t span, double t, double w) {
+      double leverage = 0;
+      for (int m = 2 * Degree; m >= 0; --m) leverage = leverage * t + leverage_in[span][m];
+      leverage *= w * w;
+      const double r = edge.weights[i] * residuals.distances[p][static_cast<size_t>(i)];
+      const double rest = std::max(1 - leverage, 1e-9);  // a point that alone holds a coefficient
+      const double cook = r * r * leverage / (rest * rest * points.space().size());
+      influence.largest_leverage = std::max(influence.largest_leverage, leverage);
+      if (cook <= influence.largest_cook) return;
+      influence.largest_cook = cook;
+      influence.photo = static_cast<int>(p);
+      influence.index = edge.indices[i];
+    });
+  }
+  return influence;
 }
 
 // The photographs' series one after the other, correlations never across.
@@ -142,30 +184,10 @@ Influence InfluenceOf(const FitData& data,
                       const JointModel& model,
                       const JointState& state,
                       const EdgeResiduals& residuals) {
-  const ShapeRows shape(model, state);
-  std::vector<std::vector<ShapeRow>> rows;
-  for (size_t p = 0; p < data.photos.size(); ++p) {
-    rows.push_back(shape.Of(data.photos[p].upper, state.poses[p]));
-  }
-  const Eigen::MatrixXd inverse = InverseNormal(rows, shape.columns());
-  Influence influence{0, 0, 0, 0};
-  for (size_t p = 0; p < rows.size(); ++p) {
-    const EdgeSamples& edge = data.photos[p].upper;
-    for (size_t i = 0; i < rows[p].size(); ++i) {
-      const ShapeRow& row = rows[p][i];
-      const RowMatrix block = inverse.block<kRowSize, kRowSize>(row.first, row.first);
-      const double leverage = row.values.dot(block * row.values);
-      const double r = edge.weights[i] * residuals.distances[p][i];
-      const double rest = std::max(1 - leverage, 1e-9);  // a point that alone holds a coefficient
-      const double cook = r * r * leverage / (rest * rest * shape.columns());
-      influence.largest_leverage = std::max(influence.largest_leverage, leverage);
-      if (cook <= influence.largest_cook) continue;
-      influence.largest_cook = cook;
-      influence.photo = static_cast<int>(p);
-      influence.index = edge.indices[i];
-    }
-  }
-  return influence;
+  const ShapePoints points(model, state);
+  return WithDegree(points.space().degree, [&](auto degree) {
+    return LargestInfluence<degree()>(data, state, residuals, points);
+  });
 }
 
 UndeterminedDirection Describe(const Eigen::VectorXd& direction,

@@ -82,8 +82,7 @@ std::vector<FlatPoint> FlatUpperEdges(const FitData& data) {
         Flatten(photo.upper, photo.start, true, static_cast<int>(p));
     all.insert(all.end(), flat.begin(), flat.end());
   }
-  std::stable_sort(
-      all.begin(), all.end(), [](const FlatPoint& a, const FlatPoint& b) { return a.u < b.u; });
+  SortAlong(all);
   return all;
 }
 
@@ -93,14 +92,15 @@ double Farthest(const std::vector<double>& reaches) {
 
 // Starting poses at which the upper edges of all photographs lie on one plain cubic: where pivots
 // are hardly known, edges as observed lie beside each other, and knots would be chosen for that.
-void AlignPhotographs(Loss loss, FitData& data) {
+void AlignPhotographs(FitData& data) {
   if (data.photos.size() < 2) return;
   const FitData thin = ThinnedData(data);
   const std::vector<FlatPoint> points = FlatUpperEdges(thin);
   constexpr size_t kFewest = 12;  // a cubic through fewer explains anything
   const SplineSpace space =
       ClampedSpace(points.size() < kFewest ? 1 : 3, points.front().u, points.back().u, {});
-  const JointModel model{space, false, loss, std::vector<bool>(data.photos.size(), false)};
+  // No loss: what a cubic misses are no outliers.
+  const JointModel model{space, false, Loss::kNone, std::vector<bool>(data.photos.size(), false)};
   const JointState start = SplineStart(thin, FitLinearSpline(points, space));
   const JointResult aligned = SolveJointly(thin, model, start);
   if (!aligned.minimizer.converged) return;
@@ -191,12 +191,12 @@ BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& optio
   BladeFit report;
   report.theta_definition = data.theta_given() ? "given" : "distal-ends";
   Clean(loss != Loss::kNone, data, report);
-  AlignPhotographs(loss, data);
+  AlignPhotographs(data);
 
   const KnotChoice choice = ChooseSpace(data, ThinnedData(data), options);
   const SplineSpace& space = choice.spline.space;
   CutLowerEdges(space, data);
-  const std::vector<MirrorVerdict> verdicts = JudgeMirrors(ThinnedData(data), choice.spline, loss);
+  const std::vector<MirrorVerdict> verdicts = JudgeMirrors(ThinnedData(data), space, loss);
   const std::vector<bool> mirror = ApplyVerdicts(verdicts, data, report);
 
   const FamilyInput input{data, mirror, DomainOf(data, space)};

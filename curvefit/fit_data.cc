@@ -96,16 +96,20 @@ void CheckCovariance(const EdgePoints& photo, const Eigen::Matrix2d& covariance)
 
 // Order along the blade; points that coincide are one observation, not several.
 std::vector<int> OrderAlong(const std::vector<EdgePoint>& edge, const Eigen::Vector2d& direction) {
-  std::vector<int> order(edge.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto place = [&](int i) { return direction.dot(edge[i].point_mm); };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const double pa = place(a), pb = place(b);
-    if (pa != pb) return pa < pb;
+  std::vector<double> place(edge.size());
+  for (size_t i = 0; i < edge.size(); ++i) place[i] = direction.dot(edge[i].point_mm);
+  const auto before = [&](int a, int b) {
+    if (place[a] != place[b]) return place[a] < place[b];
     const Eigen::Vector2d& qa = edge[a].point_mm;
     const Eigen::Vector2d& qb = edge[b].point_mm;
     return qa.x() != qb.x() ? qa.x() < qb.x() : (qa.y() != qb.y() ? qa.y() < qb.y() : a < b);
-  });
+  };
+  std::vector<int> order(edge.size());
+  std::iota(order.begin(), order.end(), 0);
+  // Edges mostly come in order; looking first is cheaper than sorting.
+  if (!std::is_sorted(order.begin(), order.end(), before)) {
+    std::sort(order.begin(), order.end(), before);
+  }
   const auto same = [&](int a, int b) { return edge[a].point_mm == edge[b].point_mm; };
   order.erase(std::unique(order.begin(), order.end(), same), order.end());
   return order;

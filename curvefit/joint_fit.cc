@@ -5,6 +5,7 @@
 #include <ceres/cost_function.h>
 #include <ceres/problem.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -95,7 +96,9 @@ bool HasGain(const JointModel& model) { return !model.space && model.free_gain; 
 
 JointResult SolveJointly(const FitData& data, const JointModel& model, JointState start) {
   JointResult result{std::move(start), {}};
-  constexpr double kSettled = 1e-9;  // of the blade's length, or rad
+  // Of the blade's length, or rad; what a turn of the frame bends in the spline is a hundredth of
+  // it.
+  constexpr double kSettled = 2e-8;
   constexpr int kRounds = 6;
   for (int round = 0; round < kRounds; ++round) {
     const Pose held = result.state.poses[0];
@@ -134,7 +137,20 @@ JointState StartingState(const FitData& data) {
 }
 
 JointState SplineStart(const FitData& data, const LinearSpline& spline) {
-  JointState start = StartingState(data);
+  FitData moved = data;
+  for (size_t p = 0; p < data.photos.size(); ++p) {
+    // The pose at which the edge lies on the spline: (u, v) of the blade turned back by the turn,
+    // moved by the shift and back by the offset.
+    const Eigen::Vector3d& motion = spline.motions[p];
+    Pose& pose = moved.photos[p].start;
+    pose[kUpperAngle] += motion(1);
+    pose[kLowerAngle] += motion(1);
+    const Eigen::Vector2d by =
+        Eigen::Rotation2Dd(pose[kUpperAngle]) * Eigen::Vector2d(motion(2), -motion(0));
+    pose[kPivotX] -= by.x();
+    pose[kPivotY] -= by.y();
+  }
+  JointState start = StartingState(moved);
   start.shape = FreeCoefficients(spline.space, spline.coefficients);
   return start;
 }

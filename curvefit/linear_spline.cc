@@ -92,7 +92,6 @@ void AddPoints(const std::vector<FlatPoint>& points,
 template <int Degree>
 void FillResiduals(const std::vector<FlatPoint>& points,
                    const std::vector<Span>& spans,
-                   const Eigen::VectorXd& solution,
                    LinearSpline& fit) {
   const std::vector<Piece> pieces = PiecesOf(spans, Degree, fit.coefficients);
   fit.residuals.resize(points.size());
@@ -101,13 +100,9 @@ void FillResiduals(const std::vector<FlatPoint>& points,
     const FlatPoint& point = points[i];
     span = FindSpan(spans, point.u, span);
     const double t = (point.u - spans[span].centre) * spans[span].scale;
-    double above = point.v - Horner<Degree>(pieces[span].value, t);
-    const int motion = MotionColumn(fit.space, point.photo);
-    if (motion >= 0) {
-      above -=
-          solution(motion) + point.u * solution(motion + 1) + point.slope * solution(motion + 2);
-    }
-    fit.residuals[i] = point.weight * above;
+    const Eigen::Vector3d& motion = fit.motions[point.photo];
+    const double moved = motion(0) + point.u * motion(1) + point.slope * motion(2);
+    fit.residuals[i] = point.weight * (point.v - moved - Horner<Degree>(pieces[span].value, t));
     fit.chi2 += fit.residuals[i] * fit.residuals[i];
   }
 }
@@ -143,10 +138,19 @@ LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
   normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
   const Eigen::VectorXd solution = normal.ldlt().solve(equations.right);
 
-  LinearSpline fit{space, solution.head(space.size()), {}, 0};
-  WithDegree(space.degree,
-             [&](auto degree) { FillResiduals<degree()>(points, spans, solution, fit); });
+  LinearSpline fit{space, solution.head(space.size()), {}, 0, {Eigen::Vector3d::Zero()}};
+  for (int photo = 1; photo <= last_photo; ++photo) {
+    fit.motions.emplace_back(solution.segment<kMotions>(MotionColumn(space, photo)));
+  }
+  WithDegree(space.degree, [&](auto degree) { FillResiduals<degree()>(points, spans, fit); });
   return fit;
+}
+
+void SortAlong(std::vector<FlatPoint>& points) {
+  const auto before = [](const FlatPoint& a, const FlatPoint& b) { return a.u < b.u; };
+  // Edges mostly come in order; looking first is cheaper than sorting.
+  if (std::is_sorted(points.begin(), points.end(), before)) return;
+  std::stable_sort(points.begin(), points.end(), before);
 }
 
 std::vector<double> QuantileKnots(const std::vector<FlatPoint>& points, int num_spans) {
@@ -171,8 +175,7 @@ std::vector<FlatPoint> Flatten(const EdgeSamples& edge,
     const Eigen::Vector2d in_blade = frame(edge.points[i]);
     flat.push_back({in_blade.x(), in_blade.y(), edge.weights[i], photo});
   }
-  std::sort(
-      flat.begin(), flat.end(), [](const FlatPoint& a, const FlatPoint& b) { return a.u < b.u; });
+  SortAlong(flat);
   return flat;
 }
 

@@ -24,6 +24,8 @@ struct LinearSpline {
   Eigen::VectorXd coefficients;
   std::vector<double> residuals;  // whitened, v - s(u)
   double chi2 = 0;
+  // Of each photograph's edge against the first one's: offset along v, turn, shift along u.
+  std::vector<Eigen::Vector3d> motions;
 };
 
 // Least squares. The edges of photographs beyond the first may shift and turn a little against the
@@ -33,6 +35,9 @@ struct LinearSpline {
 [[nodiscard]] LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
                                            const SplineSpace& space,
                                            double stiffness = 0);
+
+// By u.
+void SortAlong(std::vector<FlatPoint>& points);
 
 // Interior knots such that every span holds the same number of points, which must be sorted by u.
 [[nodiscard]] std::vector<double> QuantileKnots(const std::vector<FlatPoint>& points,

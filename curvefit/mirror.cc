@@ -74,13 +74,12 @@ MirrorVerdict JudgePhoto(FitData data, const SplineSpace& space, Loss loss, Join
 
 }  // namespace
 
-std::vector<MirrorVerdict> JudgeMirrors(const FitData& data,
-                                        const LinearSpline& spline,
-                                        Loss loss) {
+std::vector<MirrorVerdict> JudgeMirrors(const FitData& data, const SplineSpace& space, Loss loss) {
   std::vector<MirrorVerdict> verdicts;
   for (const PhotoData& photo : data.photos) {
     const FitData alone{data.length_mm, {photo}};
-    verdicts.push_back(JudgePhoto(alone, spline.space, loss, SplineStart(alone, spline)));
+    const LinearSpline upper = FitLinearSpline(Flatten(photo.upper, photo.start, true), space);
+    verdicts.push_back(JudgePhoto(alone, space, loss, SplineStart(alone, upper)));
   }
   return verdicts;
 }

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "curvefit/bspline.h"
 #include "curvefit/fit_data.h"
 #include "curvefit/joint_fit.h"
-#include "curvefit/linear_spline.h"
 
 namespace bladecurve {
 
@@ -22,7 +22,7 @@ struct MirrorVerdict {
 // difference is as likely as noise; where they differ by more than a hundredth of the blade's
 // length, the lower blade has a shape of its own and only its distal end counts.
 [[nodiscard]] std::vector<MirrorVerdict> JudgeMirrors(const FitData& data,
-                                                      const LinearSpline& spline,
+                                                      const SplineSpace& space,
                                                       Loss loss);
 
 }  // namespace bladecurve

@@ -3,7 +3,6 @@
 #include <ceres/autodiff_cost_function.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
 #include "curvefit/residuals.h"
 
@@ -69,15 +68,23 @@ struct PoseObservations {
 
 // The rows (x, y, 1) of an edge times its weights, condensed to 3 rows with the same sums of
 // squares and products: a straight edge's residual is linear in the row, so nothing is lost.
+// Modified Gram-Schmidt, the ones first: as good as Householder's for this, and three passes only.
 Eigen::Matrix3d CondensedRows(const EdgeSamples& edge) {
-  if (edge.empty()) return Eigen::Matrix3d::Zero();
-  const Eigen::Index rows = std::max<Eigen::Index>(edge.size(), 3);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, 3);
+  Eigen::MatrixX3d all(edge.size(), 3);  // columns: 1, x, y
   for (int i = 0; i < edge.size(); ++i) {
-    all.row(i) = edge.weights[i] * edge.points[i].homogeneous().transpose();
+    all.row(i) = edge.weights[i] * Eigen::RowVector3d(1, edge.points[i].x(), edge.points[i].y());
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(all);
-  return qr.matrixQR().topRows<3>().triangularView<Eigen::Upper>();
+  Eigen::Matrix3d root = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    root(k, k) = all.col(k).norm();
+    if (root(k, k) == 0) continue;
+    all.col(k) /= root(k, k);
+    for (int j = k + 1; j < 3; ++j) {
+      root(k, j) = all.col(k).dot(all.col(j));
+      all.col(j) -= root(k, j) * all.col(k);
+    }
+  }
+  return (Eigen::Matrix3d() << root.col(1), root.col(2), root.col(0)).finished();
 }
 
 struct TaperedEdges {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <ceres/cost_function.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <vector>
 
@@ -13,7 +13,7 @@
 namespace bladecurve {
 namespace {
 
-// Directions with less than this part of the information are rounding noise.
+// Pivots with less than this part of the information are rounding noise.
 constexpr double kNoise = 1e-13;
 
 // Of a point, beside the powers of t: derivatives by angle and offset of its edge, and the
@@ -203,7 +203,7 @@ class SplineEdges final : public ceres::CostFunction {
     flush();
   }
 
-  // J^T J = S V diag(lambda) V^T S, so sqrt(lambda) V^T S is a Jacobian with the same normal
+  // J^T J = S P^T L D L^T P S, pivoted, so sqrt(D) L^T P S is a Jacobian with the same normal
   // equations. Writes the residuals that go with it.
   static Eigen::MatrixXd Condense(const NormalEquations& equations,
                                   Eigen::Map<Eigen::VectorXd>& out) {
@@ -211,21 +211,19 @@ class SplineEdges final : public ceres::CostFunction {
     Eigen::VectorXd scale = equations.matrix.diagonal().cwiseSqrt();
     for (double& s : scale) s = s > 0 ? s : 1;
     const Eigen::VectorXd inverse = scale.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        inverse.asDiagonal() * equations.matrix * inverse.asDiagonal());
-    const Eigen::VectorXd& lambda = eigen.eigenvalues();
-    Eigen::VectorXd root = Eigen::VectorXd::Zero(size), reciprocal = Eigen::VectorXd::Zero(size);
+    const Eigen::LDLT<Eigen::MatrixXd> ldlt(inverse.asDiagonal() * equations.matrix *
+                                            inverse.asDiagonal());
+    Eigen::VectorXd residual = ldlt.transpositionsP() * (inverse.asDiagonal() * equations.right);
+    ldlt.matrixL().solveInPlace(residual);
+    Eigen::VectorXd root = Eigen::VectorXd::Zero(size);
     for (Eigen::Index i = 0; i < size; ++i) {
-      if (lambda(i) <= kNoise * lambda(size - 1)) continue;
-      root(i) = std::sqrt(lambda(i));
-      reciprocal(i) = 1 / root(i);
+      if (ldlt.vectorD()(i) > kNoise) root(i) = std::sqrt(ldlt.vectorD()(i));
+      residual(i) = root(i) > 0 ? residual(i) / root(i) : 0;
     }
-    const Eigen::MatrixXd turned = eigen.eigenvectors().transpose();
-    const Eigen::VectorXd residual =
-        reciprocal.asDiagonal() * (turned * (inverse.asDiagonal() * equations.right));
     out.head(size) = residual;
     out(size) = std::sqrt(std::max(0.0, equations.squares - residual.squaredNorm()));
-    return root.asDiagonal() * turned * scale.asDiagonal();
+    const Eigen::MatrixXd permuted = ldlt.transpositionsP() * Eigen::MatrixXd(scale.asDiagonal());
+    return root.asDiagonal() * (ldlt.matrixU() * permuted);
   }
 
   // The columns of the normal equations by the parameter blocks, one after the other.
