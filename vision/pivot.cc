@@ -57,11 +57,30 @@ Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
   return pivot;
 }
 
-// The head stands above the plane of the edges: seen a little from the side it is not where the
-// axis is. Heads are about a tenth of the shank's width high, views about five degrees off.
-Eigen::Matrix2d HeadParallax(const Scene& scene) {
-  const double sigma = 0.1 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
-  return sigma * sigma * Eigen::Matrix2d::Identity();
+// The rim of a head stands above the plane of the edges by the thickness of a blade and of the
+// head.
+constexpr double kHeadMm = 2.0, kHeadSigmaMm = 0.6;
+
+// Seen a little from the side, the head is not where the axis meets the plane of the edges. Without
+// markers nobody knows from which side: heads are about a fifth of the shank's width high, views
+// about five degrees off.
+PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene& scene) {
+  if (scale.sheet) {
+    return FootOf(*scale.sheet, {head_px, scale.plane_height_mm, kHeadMm, kHeadSigmaMm});
+  }
+  const double sigma = 0.2 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
+  return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
+}
+
+// The rim's own scatter cannot tell that light falling from one side moves all of it: over rendered
+// heads of brushed metal the centre is off by 2 % of the radius. Where one side follows something
+// else than the rim, the ellipse is too short across it by as much as its centre is off.
+Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
+  constexpr double kShading = 0.02, kOneSided = 0.9;
+  const double even_px = kShading * screw.semi_major_px;
+  const double one_sided_px = kOneSided * (screw.semi_major_px - screw.semi_minor_px);
+  const Vector2d major(std::cos(screw.angle_rad), std::sin(screw.angle_rad));
+  return AlongAcross(major, even_px, std::hypot(even_px, one_sided_px));
 }
 
 // A near look first: fewer other arcs compete. Then all along the overlap, where joints put their
@@ -103,21 +122,21 @@ double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
   return std::abs(left - right) / std::max(1.0, length);
 }
 
-Pivot FindPivot(const cv::Mat& grey,
-                const ToneCurve& tone,
-                const Scene& scene,
-                const EdgePair& edges,
-                const std::optional<Vector2d>& hint_px) {
+Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
   Pivot pivot;
-  if (hint_px) {
-    pivot = {*hint_px, Eigen::Matrix2d::Identity(), "hint", 0};
+  if (search.hint_px) {
+    pivot = {*search.hint_px, Eigen::Matrix2d::Identity(), "hint", 0};
   } else {
-    pivot = FromGeometry(scene, edges);
-    if (const std::optional<Screw> screw = LookForScrew(grey, tone, scene, pivot.point_px)) {
-      pivot = {screw->center_px, screw->covariance_px2 + HeadParallax(scene), "screw", 0};
+    pivot = FromGeometry(search.scene, search.edges);
+    if (const auto screw = LookForScrew(grey, scale.tone, search.scene, pivot.point_px)) {
+      const PlacePx foot = BelowHead(screw->center_px, scale, search.scene);
+      pivot = {foot.point_px,
+               screw->covariance_px2 + ShadingCovariance(*screw) + foot.covariance_px2,
+               "screw",
+               0};
     }
   }
-  pivot.asymmetry = EdgeAsymmetry(edges, pivot.point_px);
+  pivot.asymmetry = EdgeAsymmetry(search.edges, pivot.point_px);
   return pivot;
 }
 

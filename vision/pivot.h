@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "vision/scale.h"
 #include "vision/scene.h"
-#include "vision/tone_curve.h"
 
 namespace bladecurve {
 
@@ -26,13 +26,19 @@ struct EdgePair {
   std::vector<Eigen::Vector2d> left_px, right_px;
 };
 
-// The screw if it is seen; else the middle of the overlap, moved onto the line about which the two
-// edges mirror each other.
+// What is known before the pivot is looked for; all in stored pixels.
+struct PivotSearch {
+  const Scene& scene;
+  EdgePair edges;
+  std::optional<Eigen::Vector2d> hint_px;
+};
+
+// In the plane of the edges: below the screw's head if that is seen; else the middle of the
+// overlap, moved onto the line about which the two edges mirror each other. How obliquely a head is
+// seen the markers say, where there are any.
 [[nodiscard]] Pivot FindPivot(const cv::Mat& grey,
-                              const ToneCurve& tone,
-                              const Scene& scene,
-                              const EdgePair& edges,
-                              const std::optional<Eigen::Vector2d>& hint_px);
+                              const ScaleResult& scale,
+                              const PivotSearch& search);
 
 // How differently the two edges pass by the pivot: difference of their signed distances from it
 // over the length of the blades. Blades in one plane pass alike (below 0.1); angled ones (Lister,

@@ -12,6 +12,7 @@
 
 #include "vision/photo.h"
 #include "vision/plane_map.h"
+#include "vision/sheet_pose.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -38,7 +39,9 @@ struct SeenMarker {
 };
 
 struct ScaleResult {
-  std::optional<PlaneMap> map;  // absent only while length_mm waits for the scene
+  std::optional<PlaneMap> map;         // absent only while length_mm waits for the scene
+  std::optional<SheetSolution> sheet;  // where markers say how the camera stands over it
+  double plane_height_mm = 0;          // of the map's plane over the sheet
   std::vector<SeenMarker> markers;
   // Other print on a card (check bar, text), in the stored picture: no part of the scene.
   std::vector<std::array<Eigen::Vector2d, 4>> print_px;

@@ -240,7 +240,29 @@ Eigen::Matrix2d CenterCovariance(const Profiles& profiles,
   return factor * (inverse * scatter * inverse).topLeftCorner<2, 2>();
 }
 
-Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
+// Normal equations of what is known beforehand: that the semi-axes part by no more than
+// flattening_px, as (shape_xx - shape_yy) / 2 and shape_xy say.
+struct Expectation {
+  Matrix5d normal = Matrix5d::Zero();  // to be multiplied by the variance of an independent profile
+  Vector5d right = Vector5d::Zero();
+};
+
+Expectation ExpectRound(const RimEllipse& rim, double flattening_px) {
+  Expectation round;
+  if (!(flattening_px > 0)) return round;
+  const Eigen::Matrix2d& shape = rim.shape;
+  Vector5d difference, shear;
+  difference << 0, 0, 0.5, 0, -0.5;
+  shear << 0, 0, 0, 1, 0;
+  const double weight = 1 / (flattening_px * flattening_px);
+  round.normal = weight * (difference * difference.transpose() + shear * shear.transpose());
+  round.right = -weight * (0.5 * (shape(0, 0) - shape(1, 1)) * difference + shape(0, 1) * shear);
+  return round;
+}
+
+Update FitShifts(const Profiles& profiles,
+                 const std::vector<Match>& matches,
+                 const Expectation& expected) {
   const std::size_t count = matches.size();
   std::vector<double> amplitudes(count), residuals(count);
   for (std::size_t i = 0; i < count; ++i) amplitudes[i] = std::abs(matches[i].amplitude);
@@ -253,6 +275,13 @@ Update FitShifts(const Profiles& profiles, const std::vector<Match>& matches) {
   for (int round = 0; round < kReweightings; ++round) {
     normal = kDamping.asDiagonal();
     Vector5d right = Vector5d::Zero();
+    if (round + 1 == kReweightings) {
+      // Only now, as the scatter about an ellipse held round would say that it may be held so.
+      // Neighbouring profiles err alike: a block of them is one observation.
+      const double variance_px2 = scatter_px * scatter_px * static_cast<double>(count) / kBlocks;
+      normal += variance_px2 * expected.normal;
+      right = variance_px2 * expected.right;
+    }
     for (std::size_t i = 0; i < count; ++i) {
       const double residual = matches[i].shift_px - profiles.jacobian[i].dot(update.change);
       update.weight[i] =
@@ -330,7 +359,8 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
     const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
     if (!shape) return std::nullopt;
     const std::vector<Match> matches = MatchProfiles(profiles, detrended, *shape);
-    Update update = FitShifts(profiles, matches);
+    Update update = FitShifts(
+        profiles, matches, ExpectRound(fit.rim, options.expected_flattening * start_radius));
     const double most_change = half_px / 2;  // what lies further off has not been seen
     const double change = update.change.head<2>().norm();
     if (change > most_change) update.change *= most_change / change;

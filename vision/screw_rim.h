@@ -18,6 +18,9 @@ struct RimFitOptions {
   int iterations = 6;
   double converged_px = 0.02;     // a smaller change ends the iterations
   double hopeless_support = 0.4;  // less than that after half the iterations: given up
+  // Heads are round: how far the semi-axes may be expected to part, of the radius. Where only two
+  // opposite arcs are seen this keeps the rest in place. 0: nothing is expected.
+  double expected_flattening = 0;
 };
 
 struct RimFit {

@@ -24,10 +24,6 @@ using Corners = std::array<Vector2d, 4>;
 // anywhere but the first, which carries the sheet frame.
 enum Unknown : int { kLogFocal, kK1, kTurn, kPlace = 5, kSpread = 8, kSquares };
 
-// Share of a standard deviation by which poses are moved to see what lengths do: small, so that
-// they stay linear even where the focal length is hardly known.
-constexpr double kShift = 0.05;
-
 Corners SquareCorners(double side_mm) {
   const double h = 0.5 * side_mm;
   return {Vector2d(-h, h), Vector2d(h, h), Vector2d(h, -h), Vector2d(-h, -h)};
@@ -254,7 +250,7 @@ void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSoluti
       std::sqrt(std::max(1.0, std::isnan(solution->reduced_chi2) ? 1.0 : solution->reduced_chi2));
   for (long axis = 0; axis < kept; ++axis) {
     const double length =
-        kShift * surplus_scale * std::sqrt(std::max(0.0, axes.eigenvalues()[axis]));
+        kPoseShift * surplus_scale * std::sqrt(std::max(0.0, axes.eigenvalues()[axis]));
     VectorXd plus = at.x, minus = at.x;
     for (long c = 0; c < kept; ++c) {
       plus[free[static_cast<size_t>(c)]] += length * axes.eigenvectors()(c, axis);
@@ -263,14 +259,6 @@ void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSoluti
     solution->shifted.emplace_back(PoseOf(at.base, plus), PoseOf(at.base, minus));
   }
   if (free.front() == kLogFocal) solution->log_focal_sigma = std::sqrt(covariance(0, 0));
-}
-
-double LogScale(const PlaneMap& map, const Vector2d& place_px) {
-  return 0.5 * std::log(std::abs(map.JacobianAt(place_px).determinant()));
-}
-
-double LogScale(const SheetPose& pose, double height_mm, const Vector2d& place_px) {
-  return LogScale(PlaneMap::FromGeometry(pose.PlaneAtHeight(height_mm), 0, ""), place_px);
 }
 
 SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
@@ -312,17 +300,6 @@ void CheckProblem(const SheetProblem& problem) {
 
 }  // namespace
 
-double SheetPose::CameraHeightMm() const {
-  return -camera_from_sheet.col(2).dot(sheet_in_camera_mm);
-}
-
-PlaneGeometry SheetPose::PlaneAtHeight(double height_mm) const {
-  Matrix3d image_from_plane;
-  image_from_plane << camera_from_sheet.leftCols<2>(),
-      sheet_in_camera_mm + height_mm * camera_from_sheet.col(2);
-  return {(camera.k * image_from_plane).inverse(), camera};
-}
-
 SheetSolution SolveSheet(const SheetProblem& given) {
   CheckProblem(given);
   SheetProblem problem = given;
@@ -347,25 +324,6 @@ SheetSolution SolveSheet(const SheetProblem& given) {
   solution.rival = PoseOf(rival.base, rival.x);
   solution.rival_share = odds / (1 + odds);
   return solution;
-}
-
-double RelativeSigma(const SheetSolution& solution, const LengthPlace& place) {
-  double variance = 0;
-  for (const Vector2d& px : place.places_px) {
-    for (const auto& [plus, minus] : solution.shifted) {
-      const double half =
-          (LogScale(plus, place.height_mm, px) - LogScale(minus, place.height_mm, px)) /
-          (2 * kShift);
-      variance += half * half;
-    }
-    const double by_tilt = LogScale(solution.rival, place.height_mm, px) -
-                           LogScale(solution.pose, place.height_mm, px);
-    variance += solution.rival_share * (1 - solution.rival_share) * by_tilt * by_tilt;
-    const double by_height = LogScale(solution.pose, place.height_mm + place.height_sigma_mm, px) -
-                             LogScale(solution.pose, place.height_mm, px);
-    variance += by_height * by_height;
-  }
-  return std::sqrt(variance / static_cast<double>(place.places_px.size()));
 }
 
 }  // namespace bladecurve

@@ -47,10 +47,14 @@ struct SheetPose {
   [[nodiscard]] PlaneGeometry PlaneAtHeight(double height_mm) const;
 };
 
+// Share of a standard deviation by which poses are moved to see what lengths do: small, so that
+// they stay linear even where the focal length is hardly known.
+inline constexpr double kPoseShift = 0.05;
+
 struct SheetSolution {
   SheetPose pose;
-  // The pose moved by plus and minus a fixed share of a standard deviation along each principal
-  // axis of its covariance.
+  // The pose moved by plus and minus kPoseShift standard deviations along each principal axis of
+  // its covariance.
   std::vector<std::pair<SheetPose, SheetPose>> shifted;
   SheetPose rival;         // the sheet tilted the other way, solved for as well
   double rival_share = 0;  // its probability, given the corners
@@ -75,5 +79,22 @@ struct LengthPlace {
 // Relative standard uncertainty of lengths, rms over the places: corners, tilt, focal length, lens
 // and height.
 [[nodiscard]] double RelativeSigma(const SheetSolution& solution, const LengthPlace& place);
+
+// A point seen above a plane parallel to the sheet.
+struct RaisedPoint {
+  Eigen::Vector2d image_px;
+  double plane_height_mm = 0;               // of the plane over the sheet
+  double above_mm = 0, above_sigma_mm = 0;  // of the point over the plane
+};
+
+// A place in the picture and how well it is known.
+struct PlacePx {
+  Eigen::Vector2d point_px;
+  Eigen::Matrix2d covariance_px2;
+};
+
+// Where the plane's point below `raised` is imaged. Seen at a slant the two lie apart; the
+// covariance holds what height and pose leave uncertain of that, not that of image_px.
+[[nodiscard]] PlacePx FootOf(const SheetSolution& solution, const RaisedPoint& raised);
 
 }  // namespace bladecurve

@@ -53,6 +53,7 @@ std::vector<std::string> Warnings(const SheetSolution& solution, const ScaleOpti
   if (solution.rms_px > kBentPx && solution.reduced_chi2 > kBentChi2)
     warnings.emplace_back("sheet_bent");
   if (focal_known && solution.pose.CameraHeightMm() < kNearMm) warnings.emplace_back("camera_near");
+  if (!options.plane_height_mm) warnings.emplace_back("plane_height_unknown");
   if (!focal_known && options.plane_height_mm.value_or(0) != 0)
     warnings.emplace_back("camera_unknown");
   return warnings;
@@ -88,11 +89,6 @@ constexpr double kPaperSigmaPx = 0.015;
 
 using ProblemFrom = std::function<SheetProblem(const std::vector<SeenMarker>&)>;
 
-struct Solved {
-  ScaleResult result;  // without a map yet
-  SheetSolution solution;
-};
-
 // False where locating the corners anew for this lens would move them by less than a few
 // thousandths of a pixel.
 bool LensBendsSides(const std::vector<SeenMarker>& markers, const Camera& camera) {
@@ -107,17 +103,23 @@ bool LensBendsSides(const std::vector<SeenMarker>& markers, const Camera& camera
 }
 
 // The sheet, then once more with the lens just found where it bends the markers' sides.
-Solved Solve(const Photo& photo, std::vector<SeenMarker> markers, const ProblemFrom& problem) {
+ScaleResult Solve(const Photo& photo,
+                  const ScaleOptions& options,
+                  std::vector<SeenMarker> markers,
+                  const ProblemFrom& problem) {
   const ToneCurve tone = SrgbToneCurve();
   SheetSolution solution = SolveSheet(problem(markers));
   if (LensBendsSides(markers, solution.pose.camera)) {
     markers = RelocateMarkers(photo.grey(), tone, markers, solution.pose.camera);
     solution = SolveSheet(problem(markers));
   }
-  Solved solved{{}, std::move(solution)};
-  solved.result.tone = tone;
-  solved.result.markers = std::move(markers);
-  return solved;
+  ScaleResult result;
+  result.map = MapOf(solution, photo, options);
+  result.sheet = std::move(solution);
+  result.plane_height_mm = options.plane_height_mm.value_or(0);
+  result.tone = tone;
+  result.markers = std::move(markers);
+  return result;
 }
 
 [[noreturn]] void RefuseMarkers(const std::vector<SeenMarker>& markers) {
@@ -211,19 +213,19 @@ std::vector<std::array<Eigen::Vector2d, 4>> PrintInPicture(const Card& card,
   return areas;
 }
 
-Solved SolveCard(const Photo& photo,
-                 const ScaleOptions& options,
-                 const Card& printed,
-                 const std::vector<SeenMarker>& seen) {
+ScaleResult SolveCard(const Photo& photo,
+                      const ScaleOptions& options,
+                      const Card& printed,
+                      const std::vector<SeenMarker>& seen) {
   const Card card = Scaled(printed, options.print_scale);
   const CameraKnowledge camera = KnowCamera(photo, options);
   const ProblemFrom problem = [&](const std::vector<SeenMarker>& markers) {
     return CardProblem(markers, card, camera);
   };
-  Solved solved = Solve(photo, WithoutMisplaced(MarkersOf(card, seen), problem), problem);
-  solved.result.print_px = PrintInPicture(card, solved.solution.pose);
-  solved.result.map = MapOf(solved.solution, photo, options);
-  return solved;
+  ScaleResult result =
+      Solve(photo, options, WithoutMisplaced(MarkersOf(card, seen), problem), problem);
+  result.print_px = PrintInPicture(card, result.sheet->pose);
+  return result;
 }
 
 std::vector<Card> BuiltInCards() { return {BuiltInCard(Paper::kA4), BuiltInCard(Paper::kLetter)}; }
@@ -234,11 +236,9 @@ ScaleResult ScaleFromLooseMarkers(const Photo& photo, const ScaleOptions& option
   const std::vector<SeenMarker> markers =
       FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
   const CameraKnowledge camera = KnowCamera(photo, options);
-  Solved solved = Solve(photo, markers, [&](const std::vector<SeenMarker>& seen) {
+  return Solve(photo, options, markers, [&](const std::vector<SeenMarker>& seen) {
     return LooseProblem(seen, *options.marker_mm, camera);
   });
-  solved.result.map = MapOf(solved.solution, photo, options);
-  return std::move(solved.result);
 }
 
 ScaleResult ScaleFromCard(const Photo& photo, const ScaleOptions& options) {
@@ -248,7 +248,7 @@ ScaleResult ScaleFromCard(const Photo& photo, const ScaleOptions& options) {
       FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
   const std::optional<Card> card = CardInView(cards, markers);
   if (!card) RefuseMarkers(markers);
-  return SolveCard(photo, options, *card, markers).result;
+  return SolveCard(photo, options, *card, markers);
 }
 
 std::optional<ScaleResult> ScaleFromCardIfSeen(const Photo& photo, const ScaleOptions& options) {
@@ -259,10 +259,10 @@ std::optional<ScaleResult> ScaleFromCardIfSeen(const Photo& photo, const ScaleOp
       FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kQuick);
   const std::optional<Card> card = CardInView(BuiltInCards(), markers);
   if (!card || MarkersOf(*card, markers).size() < kMinMarkers) return std::nullopt;
-  const Solved solved = SolveCard(photo, options, *card, markers);
-  if (solved.solution.square_rms_px.size() < kMinMarkers || solved.solution.rms_px > kFitsPx)
+  ScaleResult result = SolveCard(photo, options, *card, markers);
+  if (result.sheet->square_rms_px.size() < kMinMarkers || result.sheet->rms_px > kFitsPx)
     return std::nullopt;
-  return solved.result;
+  return result;
 }
 
 }  // namespace bladecurve
