@@ -15,6 +15,13 @@ namespace bladecurve {
 // longest_step_s. Invariant: the crack never heals, the plate's crack tip never moves towards the
 // pivot's first position. One instance is one plate; instances share nothing; equal calls give
 // equal bits. Copy it to branch a motion.
+//
+// Energy, from an untouched plate on and without fluctuation: with the pivot at rest, the work of
+// the hand so far, -integral of tau dtheta, is never negative, however the blades move; with the
+// angle at rest, -integral of f_x dX_p never is. Where both move, nothing is guaranteed: the
+// paper's torque (2) and force on the pivot (18) have no common potential, since x cos(alpha) phi_x
+// is not phi_theta sin(theta/2 - alpha), and a loop run the right way round gives energy without
+// cutting anything. A host that lets the pivot move must watch its energy (a passivity controller).
 class TorqueModel {
  public:
   // Throws std::invalid_argument for a material, span or option that cannot be.
