@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <span>
 #include <utility>
 
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
 #include "vision/edge_clipping.h"
 #include "vision/edge_levels.h"
+#include "vision/edge_slice.h"
 #include "vision/edge_windows.h"
 #include "vision/robust_statistics.h"
 
@@ -36,12 +37,6 @@ struct SideNoise {
   [[nodiscard]] double Weight(double step) const {
     return 1 / ((1 - step) * blade * blade + step * ground * ground);
   }
-};
-
-// A pixel with what the model needs of it.
-struct PreparedPixel {
-  double light = 0, weight = 0;
-  LevelVector terms;
 };
 
 class Fitter {
@@ -299,32 +294,35 @@ class Fitter {
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
-    for (int i = 0; i < band_.size(); ++i) fit.slices.push_back(FitSlice(i));
+    fit.slices = FitSlices();
     fit.path = std::move(path_);
     return fit;
   }
 
-  EdgeSlice FitSlice(int i) {
-    const LevelVector levels = windows_.LevelsAt(i);
-    EdgeSlice slice;
-    slice.contrast = levels[kGround] - levels[kBlade];
-    slice.ground = levels[kGround];
-    double information = 0, push = 0;
-    for (int p = band_.begin[Index(i)]; p < band_.begin[Index(i) + 1]; ++p) {
-      const PreparedPixel& pixel = kept_[Index(p)];
-      const double rest = pixel.light - levels.dot(pixel.terms),
-                   gradient = slice.contrast * pixel.terms[kShift];
-      information += pixel.weight * gradient * gradient;
-      push -= pixel.weight * gradient * rest;
+  [[nodiscard]] std::span<const PreparedPixel> KeptOf(int i) const {
+    const int first = band_.begin[Index(i)], last = band_.begin[Index(i) + 1];
+    return std::span(kept_).subspan(Index(first), Index(last - first));
+  }
+
+  [[nodiscard]] SliceTexture MeasureTexture() const {
+    std::vector<SideRest> blade, ground;
+    for (int i = 0; i < band_.size(); ++i) {
+      const SliceRests rests = RestsOf(KeptOf(i), windows_.LevelsAt(i));
+      blade.push_back(rests.blade);
+      ground.push_back(rests.ground);
     }
-    // Where a slice says next to nothing it takes after its neighbours: a blade is smooth to that
-    // much.
-    constexpr double kRoughness = 0.5;  // px
-    slice.offset_px = offsets_[Index(i)] + push / (information + 1 / (kRoughness * kRoughness));
-    slice.sigma_px = information > 0
-                         ? 1 / std::sqrt(information * windows_.Nearest(i).kept_information)
-                         : std::numeric_limits<double>::infinity();
-    return slice;
+    return {TextureSigma(blade, noise_.blade), TextureSigma(ground, noise_.ground)};
+  }
+
+  [[nodiscard]] std::vector<EdgeSlice> FitSlices() const {
+    const SliceTexture texture = MeasureTexture();
+    std::vector<EdgeSlice> slices;
+    for (int i = 0; i < band_.size(); ++i) {
+      slices.push_back(SolveSlice(
+          KeptOf(i), windows_.LevelsAt(i), texture, windows_.Nearest(i).kept_information));
+      slices.back().offset_px += offsets_[Index(i)];
+    }
+    return slices;
   }
 
   const cv::Mat& grey_;

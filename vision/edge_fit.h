@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vision/edge_path.h"
+#include "vision/edge_slice.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -21,14 +22,6 @@ struct EdgeFitOptions {
   bool blur_known = false;  // blur_px is right and stays
   bool correct_curvature = true;
   bool model_slopes = true;
-};
-
-// What the pixels nearest to one sample of the path say, levels and blur being known from many.
-struct EdgeSlice {
-  double offset_px = 0;  // of the edge from the path, positive out of the blade
-  double sigma_px = 0;   // from the pixels' noise, the levels paid for
-  double contrast = 0;   // background minus blade
-  double ground = 0;     // background at the edge
 };
 
 struct EdgeFit {
