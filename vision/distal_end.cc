@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace bladecurve {
 namespace {
@@ -63,14 +64,8 @@ BendFit FitBend(const ChordFrame& edge, double t0) {
   return {std::max(0.0, sum - c.dot(right)), c[kSmooth]};
 }
 
-}  // namespace
-
-DistalEnd FindDistalEnd(const std::vector<Vector2d>& edge, double sigma_px) {
-  constexpr std::size_t kFewest = 12;
-  if (edge.size() < kFewest) {
-    const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
-    return {edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length};
-  }
+// Where the edge leaves its smooth course.
+DistalEnd FindBend(const std::vector<Vector2d>& edge, double sigma_px) {
   const ChordFrame frame = InChordFrame(edge);
   const double last = frame.along.back();
   const double step = std::max(0.25, frame.length_px / 1000) / frame.length_px;
@@ -110,6 +105,37 @@ DistalEnd FindDistalEnd(const std::vector<Vector2d>& edge, double sigma_px) {
   end.point_px = edge[std::min(end.index, edge.size() - 1)];
   end.along_sigma_px = std::max(0.5, 0.3 * (high - low) * frame.length_px);
   return end;
+}
+
+// Where the tip's arc leaves the edge.
+DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double along_sigma_px) {
+  const Vector2d along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+  const auto beyond = std::find_if(
+      edge.begin(), edge.end(), [&](const Vector2d& p) { return (p - cap.end_px).dot(along) > 0; });
+  return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
+}
+
+}  // namespace
+
+DistalEnd FindDistalEnd(const cv::Mat& grey,
+                        const std::vector<Vector2d>& edge,
+                        const EndSearch& search) {
+  constexpr std::size_t kFewest = 12;
+  if (edge.size() < kFewest) {
+    const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
+    return {edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length};
+  }
+  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
+  if (cap && cap->scatter_px < kClearArc) {
+    // The arc's start is known to a few tenths of its radius: real tips are not quite round.
+    return EndAtCap(
+        edge, *cap, std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px)));
+  }
+  const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
+  const TipCap usual = UsualTipCap(edge, search.tip);
+  const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
+  return bend.along_sigma_px < usual_sigma_px ? bend : EndAtCap(edge, usual, usual_sigma_px);
 }
 
 }  // namespace bladecurve

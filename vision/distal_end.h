@@ -4,7 +4,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <opencv2/core.hpp>
 #include <vector>
+
+#include "vision/tip_cap.h"
 
 namespace bladecurve {
 
@@ -16,10 +19,18 @@ struct DistalEnd {
   double along_sigma_px = 0;  // standard uncertainty along the edge
 };
 
-// `edge` runs from the crotch to the tip, points about evenly spaced; `sigma_px` is the scatter of
-// one point across it. Least squares over the place t0 where the residual from the smooth edge
-// starts to grow as (t - t0)^2 / (2 R). Fewer than 12 points: the last point, with the length of
-// the edge as its uncertainty.
-[[nodiscard]] DistalEnd FindDistalEnd(const std::vector<Eigen::Vector2d>& edge, double sigma_px);
+struct EndSearch {
+  TipSearch tip;
+  double edge_sigma_px = 0;  // scatter of one point across the edge
+};
+
+// `edge` runs from the crotch to the tip, points about evenly spaced. By the arc of the tip where
+// that is seen. Else by where the edge leaves its smooth course: least squares over the place t0
+// from which on the residual grows as (t - t0)^2 / (2 R); or by what tips usually are, whichever is
+// more certain. Fewer than 12 points: the last point, with the length of the edge as its
+// uncertainty.
+[[nodiscard]] DistalEnd FindDistalEnd(const cv::Mat& grey,
+                                      const std::vector<Eigen::Vector2d>& edge,
+                                      const EndSearch& search);
 
 }  // namespace bladecurve

@@ -13,7 +13,6 @@
 #include "vision/pivot.h"
 #include "vision/refused.h"
 #include "vision/scene.h"
-#include "vision/tip_cap.h"
 
 namespace bladecurve {
 namespace {
@@ -83,39 +82,16 @@ double MedianSigma(const std::vector<LocatedEdgePoint>& points) {
   return *middle;
 }
 
-// The distal end by the arc of the tip, where that is seen; else by where the edge leaves its
-// smooth course.
-DistalEnd FindEnd(const Photo& photo,
-                  const Scene& scene,
-                  const LocatedBlade& blade,
-                  const std::vector<Vector2d>& points) {
-  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
-  const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
-  TipSearch search;
-  search.tip_px = seen.tip_px;
-  search.blade_width_px = seen.width_px;
-  search.reach_px = std::max(8.0, 4 * scene.path_sigma_px);
-  search.blade_on_left = blade.on_left;
-  const std::optional<TipCap> cap = FitTipCap(photo.grey(), points, search);
-  if (!cap || cap->scatter_px > kClearArc)
-    return FindDistalEnd(points, MedianSigma(blade.edge.points));
-  const Vector2d along = (points[points.size() * 4 / 5] - points.front()).normalized();
-  const auto beyond = std::find_if(points.begin(), points.end(), [&](const Vector2d& p) {
-    return (p - cap->end_px).dot(along) > 0;
-  });
-  DistalEnd end;
-  end.point_px = cap->end_px;
-  end.index = static_cast<std::size_t>(beyond - points.begin());
-  // The arc's start is known to a few tenths of its radius: real tips are not quite round.
-  end.along_sigma_px = std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px));
-  return end;
-}
-
 // Keeps what lies between the crotch, where the other blade's edge is near, and the distal end.
 void Trim(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
   const Vector2d& crotch_px = scene.crotch_px;
   const std::vector<Vector2d> points = InlierPoints(blade->edge);
-  blade->end = FindEnd(photo, scene, *blade, points);
+  const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
+  const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
+  blade->end = FindDistalEnd(
+      photo.grey(),
+      points,
+      {{seen.tip_px, reach_px, seen.width_px, blade->on_left}, MedianSigma(blade->edge.points)});
   const double blur = std::isfinite(blade->edge.blur_px) ? blade->edge.blur_px : 1;
   const double clear =
       4 * blur + 2;  // nearer to the crossing, light of the other blade's edge reaches this one

@@ -11,6 +11,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr std::size_t kFewestPoints = 12;  // fewer say nothing about where the edge goes on
+
 // The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
 struct EdgeAxis {
   Vector2d origin, along, inwards;
@@ -152,7 +154,7 @@ Arc BestArc(const std::vector<EndSeen>& ends, double radius, double sunk) {
 std::optional<TipCap> FitTipCap(const cv::Mat& grey,
                                 const std::vector<Vector2d>& edge,
                                 const TipSearch& search) {
-  if (edge.size() < 12) return std::nullopt;
+  if (edge.size() < kFewestPoints) return std::nullopt;
   const EdgeAxis axis = ContinueEdge(edge, search);
   const double tip = (search.tip_px - axis.origin).dot(axis.along);
   const double deepest = std::max(6.0, 0.45 * search.blade_width_px);
@@ -172,6 +174,14 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
   }
   if (best.seen == 0) return std::nullopt;
   return TipCap{axis.At(best.start, best.sunk), best.radius, best.scatter, best.seen};
+}
+
+TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {
+  constexpr double kUsualRadius = 0.1;  // of the width: Mayo 0.12, Metzenbaum 0.12, iris 0.06
+  const EdgeAxis axis = ContinueEdge(edge, search);
+  const double tip = (search.tip_px - axis.origin).dot(axis.along);
+  const double radius = kUsualRadius * search.blade_width_px;
+  return TipCap{axis.At(tip - radius, 0), radius, 0, 0};
 }
 
 }  // namespace bladecurve

@@ -32,4 +32,9 @@ struct TipSearch {
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
 
+// What tips usually are, where no arc shows: a tenth of the blade's width in radius, from the edge
+// continued to `search.tip_px`. Good to about its radius along the edge; `seen` is 0. `edge` holds
+// at least 12 points.
+[[nodiscard]] TipCap UsualTipCap(const std::vector<Eigen::Vector2d>& edge, const TipSearch& search);
+
 }  // namespace bladecurve
