@@ -175,14 +175,6 @@ void Record(const FamilyInput& input,
   fit.residual_tests.chi2_per_freedom = fit.chi2 / std::max(fit.freedom, 1.0);
 }
 
-RigidSpline InMm(const SplineSpace& space, const Eigen::VectorXd& coefficients, double length_mm) {
-  RigidSpline spline;
-  spline.degree = space.degree;
-  for (const double k : space.knots) spline.knots_mm.push_back(k * length_mm);
-  for (const double c : coefficients) spline.coefficients_mm.push_back(c * length_mm);
-  return spline;
-}
-
 // From the fit's parameters to the spline's coefficients, mm^2. The first photograph's pose counts,
 // because the blade's frame goes with it.
 Eigen::MatrixXd SplineCovariance(const JointEstimate& joint,
@@ -241,14 +233,8 @@ FamilyFit FitSpline(const FamilyInput& input,
   const Attempt attempt = SolveHonestly(input, model, start, fit);
   const JointState& state = attempt.result.state;
   const JointEstimate joint = EstimateJointly(attempt.data, model, state);
-  const SplineCoefficients c =
-      CoefficientsOf(space, state.shape.data(), EndInBlade(state.reaches[0], state.zeros[0]));
   const double length_mm = attempt.data.length_mm;
-  constexpr double kRunaway = 100;  // blade lengths off the axis: the minimiser lost the edge
-  if (!c.value.allFinite() || c.value.cwiseAbs().maxCoeff() > kRunaway) {
-    throw Refused(Reason::kFitFailed, "fit: the spline ran away; " + fit.termination);
-  }
-  fit.curve = BladeCurve(InMm(space, c.value, length_mm), input.domain);
+  fit.curve = CurveOf(space, state, length_mm, input.domain);
   fit.covariance = SplineCovariance(joint, space, state, attempt.data.theta_given(), length_mm);
   std::vector<std::string> free_names;
   for (int j = 0; j < space.size(); ++j) {

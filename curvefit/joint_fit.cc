@@ -14,6 +14,7 @@
 #include "curvefit/span_table.h"
 #include "curvefit/spline_frame.h"
 #include "curvefit/spline_shape.h"
+#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -211,6 +212,23 @@ double PoseChi2(const FitData& data, const JointModel& model, const JointState& 
     chi2 += residuals.squaredNorm();
   }
   return chi2;
+}
+
+BladeCurve CurveOf(const SplineSpace& space,
+                   const JointState& state,
+                   double length_mm,
+                   const CurveDomain& domain) {
+  const Eigen::Vector2d end = EndInBlade(state.reaches[0], state.zeros[0]);
+  const Eigen::VectorXd c = CoefficientsOf(space, state.shape.data(), end).value;
+  constexpr double kRunaway = 100;  // blade lengths off the axis: the minimiser lost the edge
+  if (!c.allFinite() || c.cwiseAbs().maxCoeff() > kRunaway) {
+    throw Refused(Reason::kFitFailed, "fit: the spline ran away from the edge");
+  }
+  RigidSpline spline;
+  spline.degree = space.degree;
+  for (const double k : space.knots) spline.knots_mm.push_back(k * length_mm);
+  for (const double value : c) spline.coefficients_mm.push_back(value * length_mm);
+  return {spline, domain};
 }
 
 std::vector<FittedPose> PosesInMm(const FitData& data,

@@ -76,6 +76,12 @@ struct JointEstimate {
                               const JointModel& model,
                               const JointState& state);
 
+// The spline of a solved state. Throws Refused{kFitFailed} if it has left the blade far behind.
+[[nodiscard]] BladeCurve CurveOf(const SplineSpace& space,
+                                 const JointState& state,
+                                 double length_mm,
+                                 const CurveDomain& domain);
+
 // The poses as the caller's frames have them, sigmas from the covariance.
 [[nodiscard]] std::vector<FittedPose> PosesInMm(const FitData& data,
                                                 const JointState& state,

@@ -18,12 +18,13 @@ constexpr double kPoseSlack = 0.05;
 constexpr double kRidge = 1e-13;
 // A photograph beyond the first may be off by an offset, a turn and a shift along u.
 constexpr int kMotions = 3;
-// Beside the powers of t: the edge's slope, with which a shift along u shows, and v.
-constexpr int kSlope = 0, kValue = 1, kExtra = 2;
+// Beside the powers of t: v, and the edge's slope, with which a shift along u shows. One photograph
+// alone needs no slope.
+constexpr int kValue = 0, kSlope = 1;
 
-// First of the columns that move a photograph; -1 for the first one.
+// First of the columns that move a photograph beyond the first.
 int MotionColumn(const SplineSpace& space, int photo) {
-  return photo > 0 ? space.size() + kMotions * (photo - 1) : -1;
+  return space.size() + kMotions * (photo - 1);
 }
 
 struct NormalEquations {
@@ -33,60 +34,98 @@ struct NormalEquations {
   explicit NormalEquations(Eigen::Index size)
       : matrix(Eigen::MatrixXd::Zero(size, size)), right(Eigen::VectorXd::Zero(size)) {}
 
-  // The points of one photograph in one span, as basis functions, motions and v.
-  template <int Degree>
-  void Add(const Span& span, int first, int motion, const SpanSums<Degree, kExtra>& sums) {
+  // The points of the first photograph in one span, as basis functions and v.
+  template <int Degree, int Extra>
+  void AddFirst(const Span& span, int first, const SpanSums<Degree, Extra>& sums) {
     constexpr int kBasis = Degree + 1;
-    Eigen::Matrix<double, kBasis + kExtra, kBasis + kMotions> columns;
+    const auto products = sums.AllProducts();
+    Eigen::Matrix<double, kBasis, kBasis> basis;
+    for (int j = 0; j < kBasis; ++j) {
+      for (int k = 0; k < kBasis; ++k) basis(k, j) = span.basis[j][k];
+    }
+    matrix.block<kBasis, kBasis>(first, first) +=
+        basis.transpose() * products.template topLeftCorner<kBasis, kBasis>() * basis;
+    right.segment<kBasis>(first) +=
+        basis.transpose() * products.template block<kBasis, 1>(0, kBasis + kValue);
+  }
+
+  // Those of another one: its motions as well, in the columns from `motion` on.
+  template <int Degree>
+  void AddMoving(const Span& span, int first, int motion, const SpanSums<Degree, 2>& sums) {
+    AddFirst(span, first, sums);
+    constexpr int kBasis = Degree + 1;
+    const auto products = sums.AllProducts();
+    Eigen::Matrix<double, kBasis + 2, kBasis + kMotions> columns;
     columns.setZero();
     for (int j = 0; j < kBasis; ++j) {
       for (int k = 0; k < kBasis; ++k) columns(k, j) = span.basis[j][k];
     }
     columns(0, kBasis) = 1;
-    columns.template block<2, 1>(0, kBasis + 1) << span.centre, 1 / span.scale;  // u itself
+    columns(0, kBasis + 1) = span.centre;  // u = centre + t/scale
+    columns(1, kBasis + 1) = 1 / span.scale;
     columns(kBasis + kSlope, kBasis + 2) = 1;
-    const typename SpanSums<Degree, kExtra>::Matrix products = sums.AllProducts();
-    const auto by_columns = (products * columns).eval();
-    const auto all = (columns.transpose() * by_columns).eval();
-    const auto values = by_columns.row(kBasis + kValue).transpose().eval();
-    matrix.block<kBasis, kBasis>(first, first) += all.template topLeftCorner<kBasis, kBasis>();
-    right.segment<kBasis>(first) += values.template head<kBasis>();
-    if (motion < 0) return;
+    const auto by_motions = (columns.template rightCols<kMotions>().transpose() * products).eval();
     matrix.block<kMotions, kBasis>(motion, first) +=
-        all.template bottomLeftCorner<kMotions, kBasis>();
+        by_motions * columns.template leftCols<kBasis>();
     matrix.block<kMotions, kMotions>(motion, motion) +=
-        all.template bottomRightCorner<kMotions, kMotions>();
-    right.segment<kMotions>(motion) += values.template tail<kMotions>();
+        by_motions * columns.template rightCols<kMotions>();
+    right.segment<kMotions>(motion) += by_motions.col(kBasis + kValue);
   }
 };
 
+// Calls flush(span) when the points of a span are over, add(point, t) for each point.
+template <typename Add, typename Flush>
+void SpanBySpan(const std::vector<FlatPoint>& points,
+                const std::vector<Span>& spans,
+                const Add& add,
+                const Flush& flush) {
+  size_t span = 0;
+  for (const FlatPoint& point : points) {
+    const size_t here = FindSpan(spans, point.u, span);
+    if (here != span) {
+      flush(span);
+      span = here;
+    }
+    add(point, (point.u - spans[span].centre) * spans[span].scale);
+  }
+  flush(span);
+}
+
 // The lower triangle of the matrix is what counts.
 template <int Degree>
-void AddPoints(const std::vector<FlatPoint>& points,
+void AddOnePhoto(const std::vector<FlatPoint>& points,
+                 const std::vector<Span>& spans,
+                 NormalEquations& equations) {
+  SpanSums<Degree, 1> sums;
+  const auto add = [&](const FlatPoint& point, double t) {
+    sums.Add(t, point.weight, {point.weight * point.v});
+  };
+  const auto flush = [&](size_t span) {
+    equations.AddFirst(spans[span], static_cast<int>(span), sums);
+    sums = {};
+  };
+  SpanBySpan(points, spans, add, flush);
+}
+
+template <int Degree>
+void AddPhotos(const std::vector<FlatPoint>& points,
                const SplineSpace& space,
                const std::vector<Span>& spans,
                int photos,
                NormalEquations& equations) {
-  using Sums = SpanSums<Degree, kExtra>;
-  std::vector<Sums> sums(photos);
-  size_t span = 0;
-  const auto flush = [&] {
-    for (int photo = 0; photo < photos; ++photo) {
-      const int motion = MotionColumn(space, photo);
-      equations.Add<Degree>(spans[span], static_cast<int>(span), motion, sums[photo]);
-      sums[photo] = Sums();
-    }
+  std::vector<SpanSums<Degree, 2>> sums(photos);
+  const auto add = [&](const FlatPoint& point, double t) {
+    sums[point.photo].Add(t, point.weight, {point.weight * point.v, point.weight * point.slope});
   };
-  for (const FlatPoint& point : points) {
-    const size_t here = FindSpan(spans, point.u, span);
-    if (here != span) {
-      flush();
-      span = here;
+  const auto flush = [&](size_t span) {
+    const int first = static_cast<int>(span);
+    equations.AddFirst(spans[span], first, sums[0]);
+    for (int photo = 1; photo < photos; ++photo) {
+      equations.AddMoving(spans[span], first, MotionColumn(space, photo), sums[photo]);
     }
-    const double t = (point.u - spans[span].centre) * spans[span].scale;
-    sums[point.photo].Add(t, point.weight, {point.weight * point.slope, point.weight * point.v});
-  }
-  flush();
+    for (auto& sum : sums) sum = {};
+  };
+  SpanBySpan(points, spans, add, flush);
 }
 
 template <int Degree>
@@ -130,7 +169,8 @@ LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
   const std::vector<Span> spans = SpansOf(space);
   NormalEquations equations(space.size() + motions);
   WithDegree(space.degree, [&](auto degree) {
-    AddPoints<degree()>(points, space, spans, last_photo + 1, equations);
+    if (last_photo == 0) return AddOnePhoto<degree()>(points, spans, equations);
+    AddPhotos<degree()>(points, space, spans, last_photo + 1, equations);
   });
   Eigen::MatrixXd& normal = equations.matrix;
   normal.diagonal().tail(motions).array() += 1 / (kPoseSlack * kPoseSlack);

@@ -16,6 +16,7 @@
 
 #include "curvefit/choose_knots.h"
 #include "curvefit/fit.h"
+#include "curvefit/joint_fit.h"
 #include "curvefit/linear_spline.h"
 
 namespace bladecurve {
@@ -84,9 +85,7 @@ double InPhotograph(const BladeCurve& curve, const FittedPose& pose, double x) {
   return y;
 }
 
-// The whole fit of one photograph with the same knots: pose, both families, covariance, tests of
-// the residuals.
-Curve WholeFit(const Job& job) {
+EdgePoints PhotographOf(const Job& job) {
   EdgePoints photo;
   photo.photo = "comparison";
   for (const FlatPoint& p : job.points) photo.upper.push_back({{p.u, p.v}, {0, -1}, 1 / p.weight});
@@ -94,10 +93,34 @@ Curve WholeFit(const Job& job) {
   photo.upper_end.point_mm = {end.u, end.v};
   photo.lower_end.point_mm = {end.u, end.v - 20};
   for (LocatedPoint* p : {&photo.upper_end, &photo.lower_end}) p->covariance_mm2.setIdentity();
+  return photo;
+}
+
+// What odr does, as a part of the whole fit: one curve of given knots, orthogonal distances,
+// covariance. The pose is estimated as well.
+Curve OneCurve(const Job& job) {
+  const FitData data = PrepareFitData({PhotographOf(job)});
+  const std::vector<FlatPoint> flat = Flatten(data.photos[0].upper, data.photos[0].start, true);
+  std::vector<double> interior = job.knots;
+  for (double& k : interior) k /= data.length_mm;
+  const SplineSpace space = ClampedSpace(3, flat.front().u, flat.back().u, interior);
+  const JointModel model{space, false, Loss::kNone, {false}};
+  const JointResult result =
+      SolveJointly(data, model, SplineStart(data, FitLinearSpline(flat, space)));
+  const JointEstimate estimate = EstimateJointly(data, model, result.state);
+  const BladeCurve curve = CurveOf(space, result.state, data.length_mm, {0, 100, 0, 1});
+  return [curve, pose = PosesInMm(data, result.state, estimate)[0]](double x) {
+    return InPhotograph(curve, pose, x);
+  };
+}
+
+// The whole fit of one photograph with the same knots: outliers, scatter, pose, both families,
+// covariance, tests of the residuals.
+Curve WholeFit(const Job& job) {
   FitOptions options;
   options.degree = 3;
   options.knots_mm = job.knots;
-  const BladeFit fit = FitBlade({photo}, options);
+  const BladeFit fit = FitBlade({PhotographOf(job)}, options);
   return [curve = fit.recommended.curve, pose = fit.poses[0]](double x) {
     return InPhotograph(curve, pose, x);
   };
@@ -125,6 +148,7 @@ int main() {
   const bladecurve::Job job = bladecurve::ReadJob(std::cin);
   bladecurve::Report("given-knots", job, bladecurve::WithKnots);
   bladecurve::Report("chosen-knots", job, bladecurve::WithChosenKnots);
+  bladecurve::Report("one-curve", job, bladecurve::OneCurve);
   bladecurve::Report("whole-fit", job, bladecurve::WholeFit);
   return 0;
 }
