@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -19,16 +20,21 @@ struct Rate {
 template <class RateFunction>
 [[nodiscard]] double RootInBracket(const RateFunction& rate, double a, double b) noexcept {
   constexpr int kMostEvaluations = 64;  // bisection alone ends at the last bit of s in 53
-  double s = 0.5 * (a + b);
+  double s = 0.5 * (a + b), last_value = 0, nudge = 0;
   for (int i = 0; i < kMostEvaluations && s > a && s < b; ++i) {
     const Rate here = rate(s);
     const double step = here.slope > 0 ? -here.value / here.slope : 0;
     (here.value >= 0 ? b : a) = s;
     const double newton = s + step;
     const double resolution = 4e-16 * std::abs(s);
-    if (step != 0 && std::abs(step) < resolution) {
+    // Near the root rounding makes a staircase of the rate: on one of its steps Newton stands
+    // still.
+    const bool rounded = std::abs(step) < resolution || here.value == last_value;
+    last_value = here.value;
+    if (step != 0 && rounded) {
       if (here.value >= 0) return s;
-      s = s + resolution;  // one bit further lies the other side
+      nudge = std::max({resolution, std::abs(step), 4 * nudge});
+      s += nudge;
     } else {
       s = (step != 0 && newton > a && newton < b) ? newton : 0.5 * (a + b);
     }
