@@ -3,6 +3,7 @@
 #include "tests/model/cutting_scenes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bladecurve {
 namespace {
@@ -29,6 +30,18 @@ BladeCurve CurvedBlade() {
 
 double Uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+}
+
+double LogUniform(std::mt19937& random, double low, double high) {
+  return std::exp(Uniform(random, std::log(low), std::log(high)));
+}
+
+BladeCurve RandomWavyBlade(std::mt19937& random) {
+  const double dip_mm = Uniform(random, 0, 4);
+  return {RigidSpline{3,
+                      {5, 5, 5, 5, 25, 40, 55, 80, 80, 80, 80},
+                      {-6, -5.6, Uniform(random, -4.2, -3), -1.6, -1.6 - dip_mm, -1.2, 0}},
+          {8, 79, 0, 1.2}};
 }
 
 std::vector<Pose> RandomMotion(std::uint32_t seed, int samples, bool slicing) {

@@ -25,6 +25,12 @@ constexpr double kRad = 0.017453292519943295;  // per degree
 // A number of [low, high), the same on every machine.
 [[nodiscard]] double Uniform(std::mt19937& random, double low, double high);
 
+// The same, spread evenly over the decades.
+[[nodiscard]] double LogUniform(std::mt19937& random, double low, double high);
+
+// An edge that rises, dips by chance and rises again: several x have the same phi.
+[[nodiscard]] BladeCurve RandomWavyBlade(std::mt19937& random);
+
 struct Pose {
   double theta_rad = 0, pivot_mm = 0;
 };

@@ -21,9 +21,4 @@ inline void ExpectFinite(const TorqueSample& sample, const std::string& scene) {
   EXPECT_GE(sample.torque_nmm, 0) << scene;
 }
 
-// Spread evenly over the decades.
-inline double LogUniform(std::mt19937& random, double low, double high) {
-  return std::exp(Uniform(random, std::log(low), std::log(high)));
-}
-
 }  // namespace bladecurve

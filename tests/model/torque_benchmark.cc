@@ -1,14 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// Accuracy and time of the real-time step side by side. With the argument `instructions` it only
-// steps, for
-//   valgrind --tool=callgrind --toggle-collect='bladecurve::TorqueModel::Step*' torque_benchmark
-//   instructions
+// Accuracy and time of the real-time step side by side.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <string_view>
 #include <vector>
 
 #include "model/torque.h"
@@ -79,23 +75,10 @@ void PrintTable() {
   }
 }
 
-void OnlyStep() {
-  for (const Case& c : Cases()) {
-    TorqueModel model(c.blade, PaperMaterials()[0], c.span, {c.policy});
-    for (const Pose& pose : RandomMotion(1, 2000, true)) {
-      static_cast<void>(model.Step(pose.theta_rad, pose.pivot_mm, 1e-3));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace bladecurve
 
-int main(int argc, char** argv) {
-  if (argc > 1 && std::string_view(argv[1]) == "instructions") {
-    bladecurve::OnlyStep();
-  } else {
-    bladecurve::PrintTable();
-  }
+int main() {
+  bladecurve::PrintTable();
   return 0;
 }

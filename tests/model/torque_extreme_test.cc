@@ -17,15 +17,6 @@ namespace {
 constexpr PlateSpan kSpan{45, 68};
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// An edge that rises, dips by chance and rises again: several x have the same phi.
-BladeCurve RandomWavyBlade(std::mt19937& random) {
-  const double dip_mm = Uniform(random, 0, 4);
-  return {RigidSpline{3,
-                      {5, 5, 5, 5, 25, 40, 55, 80, 80, 80, 80},
-                      {-6, -5.6, Uniform(random, -4.2, -3), -1.6, -1.6 - dip_mm, -1.2, 0}},
-          {8, 79, 0, 1.2}};
-}
-
 // Whether the edge has no other contact at this level between where the crack was and where it is.
 bool IsFirstContact(const BladeCurve& blade,
                     const TorqueSample& now,
