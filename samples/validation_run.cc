@@ -21,16 +21,17 @@ constexpr int kJpegQuality = 95;
 // Files of one scene; gone when this goes.
 class SceneFiles {
  public:
-  SceneFiles(const RenderedPhoto& photo, const fs::path& stem)
+  SceneFiles(const RenderedPhoto& photo, const ValidationScene& scene, const fs::path& stem)
       : photo_(stem.string() + ".jpg"), camera_(stem.string() + ".camera.json") {
     WriteFileWhole(photo_, EncodeJpeg(photo.bgr, kJpegQuality));
-    const Eigen::Matrix3d& k = photo.truth.camera.k;
+    Eigen::Matrix3d k = photo.truth.camera.k;
+    k.diagonal().head<2>() *= 1 + scene.focal_error;
     const nlohmann::json calibration = {
         {"width", photo.truth.width},
         {"height", photo.truth.height},
         {"K",
          {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
-        {"dist", {photo.truth.camera.k1, 0, 0, 0}}};
+        {"dist", {photo.truth.camera.k1 + scene.k1_error, 0, 0, 0}}};
     WriteFileWhole(camera_, calibration.dump());
   }
   ~SceneFiles() {
@@ -48,14 +49,15 @@ class SceneFiles {
   fs::path photo_, camera_;
 };
 
-AnalysisSettings SettingsFor(const SceneSpec& spec, const SceneFiles& files) {
+AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& files) {
+  const SceneSpec& spec = scene.spec;
   AnalysisSettings settings;
   if (spec.markers.empty()) {
     settings.measure.scale.mm_per_px = TruthOf(spec).mm_per_px;
     return settings;
   }
   settings.measure.scale.marker_mm = spec.markers.front().size_mm;
-  settings.measure.scale.plane_height_mm = spec.edge_height_mm;
+  settings.measure.scale.plane_height_mm = spec.edge_height_mm + scene.height_error_mm;
   settings.measure.scale.camera = files.camera();
   return settings;
 }
@@ -76,13 +78,13 @@ std::vector<std::string> WarningsOf(const Analysis& analysis) {
 
 ValidationRow ValidateScene(const ValidationScene& scene, const fs::path& folder) {
   const RenderedPhoto photo = RenderScene(scene.spec);
-  const SceneFiles files(photo, folder / ("scene-" + std::to_string(scene.number)));
+  const SceneFiles files(photo, scene, folder / ("scene-" + std::to_string(scene.number)));
   ValidationRow row;
   row.number = scene.number;
   row.expected = scene.refuse ? std::string(ReasonCode(*scene.refuse)) : "ok";
   row.theta_deg = scene.spec.theta_rad * 180 / std::numbers::pi;
   try {
-    const Analysis analysis = AnalyzeScissors({files.photo()}, SettingsFor(scene.spec, files));
+    const Analysis analysis = AnalyzeScissors({files.photo()}, SettingsFor(scene, files));
     const std::vector<std::string> warnings = WarningsOf(analysis);
     row.outcome = warnings.empty() ? "ok" : "review";
     row.detail = Joined(warnings);

@@ -44,9 +44,9 @@ struct ValidationRow {
   }
 };
 
-// Renders the scene into a file in `folder`, runs the pipeline on it as `fit` does (camera
-// calibration, marker size and plane height given) and compares the result with the truth. The file
-// is removed again.
+// Renders the scene into a file in `folder`, runs the pipeline on it as `fit` does (marker
+// size, camera calibration and plane height given, the last two as well as users know them) and
+// compares the result with the truth. The file is removed again.
 [[nodiscard]] ValidationRow ValidateScene(const ValidationScene& scene,
                                           const std::filesystem::path& folder);
 

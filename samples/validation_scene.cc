@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+
+#include "vision/scale.h"
 
 namespace bladecurve {
 namespace {
@@ -25,6 +28,20 @@ void CutOffTips(SceneSpec* spec) {
   spec->pivot_mm = (to_border_mm - 0.75 * spec->scissors.length_mm) * ahead;
 }
 
+// Box and Muller 1958; the distributions of the standard library differ from one to the next.
+double DrawNormal(std::mt19937_64* random) {
+  const auto uniform = [&] { return (static_cast<double>((*random)() >> 11) + 0.5) * 0x1p-53; };
+  const double radius = std::sqrt(-2 * std::log(uniform()));
+  return radius * std::cos(2 * std::numbers::pi * uniform());
+}
+
+void MisstateKnowledge(ValidationScene* scene) {
+  std::mt19937_64 random(scene->spec.seed);
+  scene->focal_error = kCalibratedFocalSigma * DrawNormal(&random);
+  scene->k1_error = kCalibratedK1Sigma * DrawNormal(&random);
+  scene->height_error_mm = kGivenHeightSigmaMm * DrawNormal(&random);
+}
+
 }  // namespace
 
 ValidationScene MakeValidationScene(int number, std::uint64_t seed, Difficulty difficulty) {
@@ -32,6 +49,7 @@ ValidationScene MakeValidationScene(int number, std::uint64_t seed, Difficulty d
   ValidationScene scene;
   scene.number = number;
   scene.spec = RandomScene(seed * kApart + static_cast<std::uint64_t>(number), difficulty);
+  MisstateKnowledge(&scene);
   if (number % kRefusalEvery != kRefusalEvery - 1) return scene;
   switch (number / kRefusalEvery % 3) {
     case 0:

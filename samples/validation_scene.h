@@ -16,6 +16,9 @@ struct ValidationScene {
   SceneSpec spec;
   std::optional<Reason>
       refuse;  // the reason for which it must be refused; none: it can be measured
+  // By how much the calibration and the height given to the program are off: drawn from what it
+  // takes them to be good for.
+  double focal_error = 0, k1_error = 0, height_error_mm = 0;
 };
 
 // Scene `number` of the series that `seed` begins. Every tenth must be refused: closed scissors, a

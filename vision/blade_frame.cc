@@ -3,6 +3,7 @@
 #include "vision/blade_frame.h"
 
 #include <Eigen/Dense>
+#include <cmath>
 
 namespace bladecurve {
 
@@ -46,6 +47,20 @@ Vector2d BladeFrame::axis_px() const {
   return (jacobian.inverse() * Vector2d::UnitX()).normalized();
 }
 
-double BladeFrame::mm_per_px() const { return (map_.JacobianAt(pivot_px_) * axis_px()).norm(); }
+double BladeFrame::MmPerPxAt(const Vector2d& image_px) const {
+  return (map_.JacobianAt(image_px) * axis_px()).norm();
+}
+
+double BladeFrame::mm_per_px() const { return MmPerPxAt(pivot_px_); }
+
+double BladeFrame::mm_per_px_sigma(const Matrix2d& pivot_covariance_px2) const {
+  Vector2d gradient;  // mm/px^2; perspective changes the scale smoothly, so 1 px is small enough
+  for (int k = 0; k < 2; ++k) {
+    const Vector2d step = Vector2d::Unit(k);
+    gradient[k] = 0.5 * (MmPerPxAt(pivot_px_ + step) - MmPerPxAt(pivot_px_ - step));
+  }
+  return std::hypot(map_.relative_sigma() * mm_per_px(),
+                    std::sqrt(gradient.dot(pivot_covariance_px2 * gradient)));
+}
 
 }  // namespace bladecurve

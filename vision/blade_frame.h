@@ -29,8 +29,13 @@ class BladeFrame {
 
   [[nodiscard]] Eigen::Vector2d axis_px() const;  // unit direction of +x in the image, at the pivot
   [[nodiscard]] double mm_per_px() const;         // along the axis, at the pivot
+  // Its standard uncertainty: the map's own, and in a slanting view that of where the pivot is.
+  [[nodiscard]] double mm_per_px_sigma(const Eigen::Matrix2d& pivot_covariance_px2) const;
 
  private:
+  // Along the axis, at this place.
+  [[nodiscard]] double MmPerPxAt(const Eigen::Vector2d& image_px) const;
+
   const PlaneMap& map_;
   Eigen::Vector2d pivot_px_;
   Eigen::Vector2d pivot_in_plane_;

@@ -274,7 +274,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.theta_sigma_rad = opening.sigma_rad;
   result.theta_source = options.hints.theta_rad ? "given" : "distal-ends";
   result.mm_per_px = frame.mm_per_px();
-  result.mm_per_px_sigma = map.relative_sigma() * result.mm_per_px;
+  result.mm_per_px_sigma = frame.mm_per_px_sigma(pivot.covariance_px2);
   result.scale_source = map.source();
   result.edges = ToEdgePoints(frame, map, pivot, upper, lower);
   result.edges.photo = result.file;

@@ -17,6 +17,12 @@
 
 namespace bladecurve {
 
+// How well users know what they give, standard uncertainties: a camera calibrated with care and
+// refocused since, a height measured with a caliper or a ruler.
+inline constexpr double kCalibratedFocalSigma = 0.002;  // relative
+inline constexpr double kCalibratedK1Sigma = 0.002;
+inline constexpr double kGivenHeightSigmaMm = 0.1;
+
 // What the user said about scale; at most one of the first five.
 struct ScaleOptions {
   std::optional<double> mm_per_px;

@@ -18,8 +18,6 @@ namespace bladecurve {
 namespace {
 
 // Standard uncertainties of what is known beforehand.
-constexpr double kCalibratedFocal = 0.002,
-                 kCalibratedK1 = 0.002;  // a careful calibration, refocused since
 constexpr double kExifFocal =
     0.03;  // whole millimetres of some 28, and the crop that stabilisation takes
 constexpr double kUnknownFocal =
@@ -29,7 +27,6 @@ constexpr double kUnknownK1 = 0.02;  // cameras correct their lenses to half a p
 
 constexpr double kInkSpreadMm = 0.05;  // of laser and inkjet prints on plain paper, each side
 
-constexpr double kGivenHeightMm = 0.1;    // of a height measured with a caliper or a ruler
 constexpr double kUnknownHeightMm = 2.0;  // cutting edges lie 0.5 to 4 mm above the table
 
 std::vector<Eigen::Vector2d> InnerGrid(int width, int height) {
@@ -63,7 +60,7 @@ std::vector<std::string> Warnings(const SheetSolution& solution, const ScaleOpti
 CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
   const int width = photo.grey().cols, height = photo.grey().rows;
   if (options.camera)
-    return {ReadCamera(*options.camera, width, height), kCalibratedFocal, kCalibratedK1};
+    return {ReadCamera(*options.camera, width, height), kCalibratedFocalSigma, kCalibratedK1Sigma};
   const std::optional<double> exif = photo.metadata().focal_length_px;
   if (exif) return {CentredCamera(*exif, width, height), kExifFocal, kUnknownK1};
   const double guess = kUnknownFocalPerSide * std::max(width, height);
@@ -74,7 +71,7 @@ PlaneMap MapOf(const SheetSolution& solution, const Photo& photo, const ScaleOpt
   const double height_mm = options.plane_height_mm.value_or(0);
   const LengthPlace place{InnerGrid(photo.grey().cols, photo.grey().rows),
                           height_mm,
-                          options.plane_height_mm ? kGivenHeightMm : kUnknownHeightMm};
+                          options.plane_height_mm ? kGivenHeightSigmaMm : kUnknownHeightMm};
   return PlaneMap::FromGeometry(solution.pose.PlaneAtHeight(height_mm),
                                 RelativeSigma(solution, place),
                                 options.marker_mm ? "marker" : "card")
