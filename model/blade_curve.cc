@@ -16,12 +16,9 @@ static_assert(kCurveXOutside == BLADECURVE_X_OUTSIDE &&
                   kCurveNotGraph == BLADECURVE_NOT_GRAPH,
               "the flags of the library and of the plugin are the same");
 
-BladeCurve::BladeCurve(BladeShape shape, CurveDomain domain)
-    : shape_(std::move(shape)), domain_(domain), prepared_(PrepareBlade(shape_, domain_)) {}
+namespace {
 
-CurveSample BladeCurve::Eval(double x_mm, double theta_rad) const noexcept {
-  bladecurve_sample s;
-  EvalBlade(&prepared_->kernel, x_mm, theta_rad, &s);
+CurveSample SampleOf(const bladecurve_sample& s) noexcept {
   return {s.phi_mm,
           s.phi_x,
           s.phi_theta_mm_per_rad,
@@ -29,6 +26,31 @@ CurveSample BladeCurve::Eval(double x_mm, double theta_rad) const noexcept {
           s.phi_xtheta_per_rad,
           s.phi_thetatheta_mm_per_rad2,
           s.flags};
+}
+
+// A function of its own, so that what it needs of registers and stack costs a tapered rectangle
+// nothing.
+[[gnu::noinline]] CurveSample EvalAny(const BladeKernel& kernel,
+                                      double x_mm,
+                                      double theta_rad) noexcept {
+  bladecurve_sample s;
+  EvalBlade(&kernel, x_mm, theta_rad, &s);
+  return SampleOf(s);
+}
+
+}  // namespace
+
+BladeCurve::BladeCurve(BladeShape shape, CurveDomain domain)
+    : shape_(std::move(shape)), domain_(domain), prepared_(PrepareBlade(shape_, domain_)) {}
+
+CurveSample BladeCurve::Eval(double x_mm, double theta_rad) const noexcept {
+  const BladeKernel& k = prepared_->kernel;
+  if (k.is_spline == 0 && IsInside(&k, x_mm, theta_rad)) {
+    bladecurve_sample s;
+    Fill(&s, TaperedJet(&k, x_mm, theta_rad), 0u);
+    return SampleOf(s);
+  }
+  return EvalAny(k, x_mm, theta_rad);
 }
 
 int BladeCurve::Contacts(double y_mm, double theta_rad, std::span<double> x_mm) const noexcept {

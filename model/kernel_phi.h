@@ -36,7 +36,7 @@ static inline BladeJet TaperedJet(const BladeKernel* k, double x, double theta) 
 /* By implicit differentiation: d/dx = (1/advance) d/du along the edge, at a point near x and from
  * there to x by Taylor's series; and 2 phi_theta = x + phi phi_x for a rigid turn, which
  * differentiates to the rest. */
-static inline BladeJet SplineJet(const BladeKernel* k, double x, double theta, unsigned* flags) {
+BLADECURVE_HOT BladeJet SplineJet(const BladeKernel* k, double x, double theta, unsigned* flags) {
   const EdgeTurn turn = TurnBy(k, theta);
   const SplinePoint p = PointNear(k, &turn, &x, flags);
   const double advance = turn.cosine - p.s1 * turn.sine;
@@ -58,7 +58,7 @@ static inline BladeJet SplineJet(const BladeKernel* k, double x, double theta, u
   return j;
 }
 
-static inline void Fill(bladecurve_sample* sample, BladeJet j, unsigned flags) {
+BLADECURVE_HOT void Fill(bladecurve_sample* sample, BladeJet j, unsigned flags) {
   sample->phi_mm = j.f;
   sample->phi_x = j.x;
   sample->phi_theta_mm_per_rad = j.t;
@@ -79,7 +79,10 @@ static inline BladeJet Continued(BladeJet j, double dx, double dt) {
   return far;
 }
 
-static void EvalOutside(const BladeKernel* k, double x, double theta, bladecurve_sample* sample) {
+BLADECURVE_COLD void EvalOutside(const BladeKernel* k,
+                                 double x,
+                                 double theta,
+                                 bladecurve_sample* sample) {
   const double x_in = Clamp(x, k->x_min, k->x_max);
   const double theta_in = Clamp(theta, k->theta_min, k->theta_max);
   const double dx = Clamp(x, -kFarthest, kFarthest) - x_in;
@@ -96,12 +99,16 @@ static void EvalOutside(const BladeKernel* k, double x, double theta, bladecurve
   Fill(sample, Continued(j, dx, dt), flags);
 }
 
+static inline int IsInside(const BladeKernel* k, double x, double theta) {
+  return x >= k->x_min && x <= k->x_max && theta >= k->theta_min && theta <= k->theta_max;
+}
+
 /* phi at any (x, theta). */
 static inline void EvalBlade(const BladeKernel* k,
                              double x,
                              double theta,
                              bladecurve_sample* sample) {
-  if (!(x >= k->x_min && x <= k->x_max && theta >= k->theta_min && theta <= k->theta_max)) {
+  if (!IsInside(k, x, theta)) {
     EvalOutside(k, x, theta, sample);
   } else if (!k->is_spline) {
     Fill(sample, TaperedJet(k, x, theta), 0u);

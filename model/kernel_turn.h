@@ -32,7 +32,7 @@ typedef struct QuarterTangent {
   double num, den;
 } QuarterTangent;
 
-static inline QuarterTangent QuarterTangentOf(double theta) {
+BLADECURVE_HOT QuarterTangent QuarterTangentOf(double theta) {
   const double q = 0.25 * theta, z = q * q;
   QuarterTangent tangent;
   tangent.num = q * ((1.0 - 0.12828350168243329619 * z) +
@@ -69,14 +69,14 @@ static inline double GraphEnd(const BladeKernel* k, const EdgeTurn* turn, double
 }
 
 /* Where the turned edge is a graph: the part around its flattest place. */
-static void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
+BLADECURVE_COLD void FindGraph(const BladeKernel* k, EdgeTurn* turn) {
   const double u = turn->sine > 0.0 ? k->u_slope_min : k->u_slope_max;
   turn->least = kLeastAdvance;
   turn->u_low = GraphEnd(k, turn, u, -1);
   turn->u_high = GraphEnd(k, turn, u, 1);
 }
 
-static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
+BLADECURVE_HOT EdgeTurn TurnBy(const BladeKernel* k, double theta) {
   const QuarterTangent q = QuarterTangentOf(theta);
   EdgeTurn turn;
   double per_norm;
@@ -94,12 +94,12 @@ static inline EdgeTurn TurnBy(const BladeKernel* k, double theta) {
   return turn;
 }
 
-static inline double XOfPoint(const EdgeTurn* turn, SplinePoint p) {
+BLADECURVE_HOT double XOfPoint(const EdgeTurn* turn, SplinePoint p) {
   return p.u * turn->cosine - p.s * turn->sine;
 }
 
 /* Whether Taylor's series reaches x from here: near it, on the same row. */
-static inline int IsNear(const BladeKernel* k, const EdgeTurn* turn, SplinePoint p, double x) {
+BLADECURVE_HOT int IsNear(const BladeKernel* k, const EdgeTurn* turn, SplinePoint p, double x) {
   const double inner = k->near_mm;
   const int is_inner = p.u - inner >= k->ends[p.row] && p.u + inner <= k->ends[p.row + 1];
   return fabs(XOfPoint(turn, p) - x) <= (is_inner ? inner * turn->least : k->exact_mm);
@@ -107,7 +107,7 @@ static inline int IsNear(const BladeKernel* k, const EdgeTurn* turn, SplinePoint
 
 /* The step along u to where the edge is over x, by reversion of Taylor's series; Newton's where
  * that is of no use. */
-static inline double StepTowards(const EdgeTurn* turn, SplinePoint p, double x) {
+BLADECURVE_HOT double StepTowards(const EdgeTurn* turn, SplinePoint p, double x) {
   const double per = 1.0 / (turn->cosine - p.s1 * turn->sine);
   const double step = (x - XOfPoint(turn, p)) * per;
   const double bend = p.s2 * (turn->sine * per) * step;
@@ -118,10 +118,10 @@ static inline double StepTowards(const EdgeTurn* turn, SplinePoint p, double x) 
 
 /* A point of the edge near x, for an x between those of u_low and u_high, from any start: Newton's
  * steps, halving the bracket where they leave it or do not shrink. */
-static SplinePoint SearchPointNear(const BladeKernel* k,
-                                   const EdgeTurn* turn,
-                                   double x,
-                                   double start) {
+BLADECURVE_COLD SplinePoint SearchPointNear(const BladeKernel* k,
+                                            const EdgeTurn* turn,
+                                            double x,
+                                            double start) {
   SplinePoint p = PointAt(k, Clamp(start, turn->u_low, turn->u_high));
   const double reach = fabs(XOfPoint(turn, p) - x) / turn->least;
   double low = p.u - reach > turn->u_low ? p.u - reach : turn->u_low;
@@ -169,10 +169,10 @@ static double OverhangBeyond(const BladeKernel* k, const EdgeTurn* turn, double 
 
 /* A point near x of an edge that is no graph everywhere: where x is beyond the graph, its end,
  * with its own x. Flagged there and where another part of the edge hangs over x too. */
-static SplinePoint PointOfPartNear(const BladeKernel* k,
-                                   const EdgeTurn* turn,
-                                   double* x,
-                                   unsigned* flags) {
+BLADECURVE_COLD SplinePoint PointOfPartNear(const BladeKernel* k,
+                                            const EdgeTurn* turn,
+                                            double* x,
+                                            unsigned* flags) {
   const SplinePoint low = PointAt(k, turn->u_low), high = PointAt(k, turn->u_high);
   const double x_low = XOfPoint(turn, low), x_high = XOfPoint(turn, high);
   if (*x <= OverhangBeyond(k, turn, turn->u_low, -1) || *x <= x_low ||
@@ -189,10 +189,10 @@ static SplinePoint PointOfPartNear(const BladeKernel* k,
 }
 
 /* A point of the edge near x. From the spline's chord one step nearly always does. */
-static inline SplinePoint PointNear(const BladeKernel* k,
-                                    const EdgeTurn* turn,
-                                    double* x,
-                                    unsigned* flags) {
+BLADECURVE_HOT SplinePoint PointNear(const BladeKernel* k,
+                                     const EdgeTurn* turn,
+                                     double* x,
+                                     unsigned* flags) {
   const double start = (*x * turn->norm + k->chord_offset * turn->norm_sine) /
                        (turn->norm_cosine - k->chord_slope * turn->norm_sine);
   SplinePoint p;
