@@ -46,7 +46,10 @@ void AppendRow(std::string& csv, const CutRow& row, bool measured) {
     AppendCell(csv, value);
   }
   csv += std::to_string(row.cut.flags);
-  if (measured) csv += "," + NumberText(row.motion.measured_n);
+  if (measured) {
+    csv += ',';
+    csv += NumberText(row.motion.measured_n);
+  }
   csv += '\n';
 }
 
