@@ -4,124 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
-#include "vision/edge_band.h"
-#include "vision/edge_line.h"
-#include "vision/edge_steps.h"
+#include "vision/edge_survey.h"
 #include "vision/robust_statistics.h"
-#include "vision/tone_curve.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kBackgroundPx = 10;  // seen beyond the search range, to know the background
-constexpr double kBladePx = 8;        // the same inwards
-constexpr int kThinning = 2;          // samples of the guess to one that the first look takes
-constexpr float kForbidden = -1;      // score of a place where the edge cannot be
-constexpr float kLooseBend = 0.25F;  // the guess wanders about the edge by a row every few stations
 constexpr float kStiffBend =
     0.5F;  // once straightened, it takes two clear stations to leave a line
 
 size_t Index(int i) { return static_cast<size_t>(i); }
-
-// Grey values as they are stored: noise and texture are then about alike in light and shadow, which
-// linear light is not.
-const ToneCurve& EncodedValues() {
-  static const ToneCurve encoded = [] {
-    ToneCurve curve;
-    for (size_t v = 0; v < curve.linear.size(); ++v) curve.linear[v] = static_cast<float>(v) / 255;
-    return curve;
-  }();
-  return encoded;
-}
-
-// Values at stations spread over `count` evenly spaced samples.
-std::vector<double> Spread(const std::vector<double>& stations, int spacing, int count) {
-  std::vector<double> values;
-  const int last = static_cast<int>(stations.size()) - 1;
-  for (int i = 0; i < count; ++i) {
-    const double position = std::min(static_cast<double>(i) / spacing, static_cast<double>(last));
-    const int a = static_cast<int>(position), b = std::min(a + 1, last);
-    values.push_back(stations[Index(a)] +
-                     (position - a) * (stations[Index(b)] - stations[Index(a)]));
-  }
-  return values;
-}
-
-// A band straightened along a path, its steps, and how far its middle lies from the guess.
-struct Survey {
-  EdgePath path;
-  std::vector<double> moved_px;  // one per sample of the path
-  StraightBand band;
-  StepMap map;
-
-  [[nodiscard]] double Across(double row) const { return band.Across(row + 0.5); }
-  [[nodiscard]] double FromGuess(int station, double row) const {
-    return moved_px[std::min(Index(station * map.layout.spacing), moved_px.size() - 1)] +
-           Across(row);
-  }
-};
-
-Survey Take(const cv::Mat& grey,
-            EdgePath path,
-            std::vector<double> moved_px,
-            double search_px,
-            const StationLayout& layout) {
-  Survey survey;
-  survey.path = std::move(path);
-  survey.moved_px = std::move(moved_px);
-  survey.moved_px.resize(survey.path.points.size(),
-                         survey.moved_px.empty() ? 0.0 : survey.moved_px.back());
-  survey.band = StraightenBand(
-      grey, EncodedValues(), survey.path, search_px + kBladePx, search_px + kBackgroundPx);
-  const int background_row = static_cast<int>(std::lround(search_px - survey.band.first_across_px));
-  survey.map = FindSteps(survey.band, layout, background_row);
-  return survey;
-}
-
-std::vector<float> Scores(const Survey& survey,
-                          const std::function<float(int station, int row)>& score) {
-  std::vector<float> scores(survey.map.clear.size());
-  for (int station = 0; station < survey.map.stations; ++station) {
-    for (int row = 0; row < survey.map.rows; ++row)
-      scores[survey.map.At(station, row)] = score(station, row);
-  }
-  return scores;
-}
-
-// Every second sample: enough for a first look.
-EdgePath Thinned(const EdgePath& path) {
-  EdgePath thin;
-  thin.blade_on_left = path.blade_on_left;
-  for (size_t i = 0; i < path.points.size(); i += kThinning) {
-    thin.points.push_back(path.points[i]);
-    thin.tangents.push_back(path.tangents[i]);
-    thin.normals.push_back(path.normals[i]);
-    thin.curvatures.push_back(path.curvatures[i]);
-  }
-  return thin;
-}
-
-// The guess wanders about the edge; along any line that runs with the blade the picture can be
-// averaged over more columns. The clearest line serves, whichever it is.
-Survey Straightened(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  constexpr double kStiffness =
-      400;                          // bends within 25 stations are the line's own, not the guess's
-  constexpr double kSmoothing = 3;  // px
-  const Survey rough = Take(grey, Thinned(guess), {}, search_px, {2, 2});
-  const std::vector<float> scores = Scores(rough, [&](int station, int row) {
-    return std::abs(rough.Across(row)) <= search_px ? rough.map.clear[rough.map.At(station, row)]
-                                                    : kForbidden;
-  });
-  std::vector<double> rows =
-      SmoothRows(rough.map, FindBestLine(rough.map, scores, kLooseBend), kStiffness);
-  for (double& row : rows) row = rough.Across(row);
-  const std::vector<double> offsets =
-      Spread(rows, kThinning * rough.map.layout.spacing, guess.size());
-  EdgePath path = SmoothPath(Shifted(guess, offsets), guess.blade_on_left, kSmoothing);
-  return Take(grey, std::move(path), offsets, search_px, {4, 9});
-}
 
 // Highest clear step of each station.
 std::vector<double> HighestSteps(const StepMap& map) {
@@ -188,6 +81,35 @@ StepLine LineWithin(
                       kStiffBend);
 }
 
+// The next line further out, where it is about as clear and as high: what lies outside a silhouette
+// is not.
+StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px) {
+  constexpr int kApart = 2, kWidest = 8;             // px; bevels and glints along an edge
+  constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
+  const StepLine outer =
+      FindBestLine(survey.map,
+                   Scores(survey,
+                          [&](int station, int row) {
+                            const int outwards = row - line.rows[Index(station)];
+                            if (outwards <= kApart || outwards > kWidest) return kForbidden;
+                            if (std::abs(survey.FromGuess(station, row)) > search_px)
+                              return kForbidden;
+                            return survey.map.clear[survey.map.At(station, row)];
+                          }),
+                   kStiffBend);
+  const bool clear = outer.score > kAsClear * line.score;
+  const bool high = std::abs(TypicalHeight(survey.map, outer)) >
+                    kAsHigh * std::abs(TypicalHeight(survey.map, line));
+  return clear && high ? outer : line;
+}
+
+double LengthOf(const EdgePath& path) {
+  double length = 0;
+  for (size_t i = 1; i < path.points.size(); ++i)
+    length += (path.points[i] - path.points[i - 1]).norm();
+  return length;
+}
+
 // A dark band between bright metal and a bright background is the bevel where it is narrow; where
 // it is wide, and a sharp step bounds it on the blade's side as well, it is a hard shadow and the
 // border is that inner step.
@@ -199,7 +121,7 @@ StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double se
   const double height = TypicalHeight(survey.map, line);
   if (height <= 0) return line;
   const int apart =
-      static_cast<int>(std::lround(kWidestBevel + kBevelPerLength * survey.path.size()));
+      static_cast<int>(std::lround(kWidestBevel + kBevelPerLength * LengthOf(survey.path)));
   const StepLine inner = LineWithin(survey, line, apart, search_px, -1);
   const bool seen = ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line);
   return seen && -TypicalHeight(survey.map, inner) > kHigh * height ? inner : line;
@@ -235,15 +157,6 @@ std::vector<double> FreeDistances(const StepMap& map, const StepLine& line, int 
     typical.push_back(near[near.size() / 2]);
   }
   return typical;
-}
-
-// The line in the picture, smoothed.
-std::vector<Eigen::Vector2d> PointsOn(const Survey& survey,
-                                      const StepLine& line,
-                                      double stiffness) {
-  std::vector<double> rows = SmoothRows(survey.map, line, stiffness);
-  for (double& row : rows) row = survey.Across(row);
-  return Shifted(survey.path, Spread(rows, survey.map.layout.spacing, survey.path.size()));
 }
 
 // The best other line that might be the border: one further out, or one within where the band
@@ -289,16 +202,23 @@ struct Surveyed {
 };
 
 // Where noise hides the steps, averaging over more of the guess, however it wanders, may show them.
-Surveyed SurveyAndLine(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+Surveyed ClearerSurvey(const cv::Mat& grey, const EdgePath& guess, double search_px) {
   constexpr double kWellSeen = 0.6;
-  constexpr StationLayout kLong = {4, 25};
-  Surveyed usual{Straightened(grey, guess, search_px), {}};
-  usual.line = WithoutHardShadow(usual.survey, OutermostLine(usual.survey, search_px), search_px);
+  constexpr double kMuchMore = 1.3;  // times as much seen; a longer mean shows a little more of any
+  Surveyed usual{SurveyStraightened(grey, guess, search_px), {}};
+  usual.line = OutermostLine(usual.survey, search_px);
   const double seen = ClearShare(usual.survey.map, usual.line);
   if (seen > kWellSeen) return usual;
-  Surveyed averaged{Take(grey, guess, {}, search_px, kLong), {}};
+  Surveyed averaged{SurveyGuess(grey, guess, search_px), {}};
   averaged.line = OutermostLine(averaged.survey, search_px);
-  return ClearShare(averaged.survey.map, averaged.line) > seen ? averaged : usual;
+  return ClearShare(averaged.survey.map, averaged.line) > kMuchMore * seen ? averaged : usual;
+}
+
+Surveyed SurveyAndLine(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  Surveyed surveyed = ClearerSurvey(grey, guess, search_px);
+  surveyed.line = OuterMatch(surveyed.survey, surveyed.line, search_px);
+  surveyed.line = WithoutHardShadow(surveyed.survey, surveyed.line, search_px);
+  return surveyed;
 }
 
 }  // namespace

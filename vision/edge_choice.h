@@ -11,7 +11,7 @@ namespace bladecurve {
 
 // Which of the transitions beside a guessed path is the blade's border, to about a pixel.
 struct ChosenTransition {
-  std::vector<Eigen::Vector2d> points;  // along it, about a pixel apart
+  std::vector<Eigen::Vector2d> points;  // along it, one to a few px apart
   std::vector<double> inner_px;         // from each point to the next transition within the blade
   std::vector<double> outer_px;  // the same in the background; kNoTransition where there is none
   double blur_px = 0;            // of the sharper transitions, good to a third

@@ -38,6 +38,9 @@ double PlaceOf(size_t i, size_t count) {
 std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>& points) {
   std::vector<double> distances(points.size(), 0.0);
   const size_t stride = 1 + points.size() / kEnough;
+  std::vector<Terms> terms;
+  for (size_t i = 0; i < points.size(); ++i)
+    terms.push_back(LegendreTerms(PlaceOf(i, points.size())));
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
     Eigen::Matrix<double, kTerms, 2> right = Eigen::Matrix<double, kTerms, 2>::Zero();
@@ -45,15 +48,14 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
       const double pull = 1 / (1 + distances[i] * distances[i] / (kScale * kScale));
       const double weight =
           pull / (points[i].sigma_px * points[i].sigma_px + kLeastSigma * kLeastSigma);
-      const Terms terms = LegendreTerms(PlaceOf(i, points.size()));
-      normal += weight * terms * terms.transpose();
-      right += weight * terms * (points[i].point_px - points.front().point_px).transpose();
+      normal += weight * terms[i] * terms[i].transpose();
+      right += weight * terms[i] * (points[i].point_px - points.front().point_px).transpose();
     }
     const Eigen::Matrix<double, kTerms, 2> coefficients = normal.ldlt().solve(right);
-    for (size_t i = 0; i < points.size(); ++i) {
+    const size_t wanted = round + 1 < kRounds ? stride : 1;
+    for (size_t i = 0; i < points.size(); i += wanted) {
       const Eigen::Vector2d on_curve =
-          points.front().point_px +
-          coefficients.transpose() * LegendreTerms(PlaceOf(i, points.size()));
+          points.front().point_px + coefficients.transpose() * terms[i];
       distances[i] = points[i].normal.dot(points[i].point_px - on_curve);
     }
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "vision/blurred_step.h"
@@ -18,13 +17,25 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kSketchRounds = 5;  // from 1.5 px off and a blur wrong by 2 to within 0.05 px,
-constexpr int kSketchStride = 6;  // on every sixth sample
+constexpr int kEnough = 700;  // samples; of longer edges every second or third tells as much
+constexpr int kStretch = 4;   // samples whose pixels are kept together
 constexpr double kFirstShare =
     0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
+
+// How thoroughly a round goes to work.
+struct Round {
+  int stride = 1;        // on every so many samples
+  bool placed = true;    // the edge is in its place already; out of place it looks blurred
+  bool bends = true;     // the background may bend; at first that could take the edge's place
+  bool settles = false;  // whether slopes are needed is judged anew
+  bool last = false;     // the blur stays, the pixels are kept
+};
+constexpr int kSketchRounds = 5;  // from 1.5 px off and a blur wrong by 2 to within 0.05 px
+constexpr Round kFirstSketch = {6, false, false, true, false};
+constexpr Round kSketch = {6, true, false, true, false};
 constexpr int kImproveRounds = 2;
-constexpr int kImproveStride = 2;
-constexpr int kNoiseStride = 2 * EdgeWindows::kStretch;
+constexpr Round kImprove = {2, true, true, true, false};
+constexpr Round kFinal = {1, true, true, true, true};
 constexpr double kNearlyWhite = 0.15;  // linear light; noise and compression stay within
 constexpr double kLeastNoise = 2e-4;   // linear light; rendered pictures without noise
 
@@ -50,17 +61,18 @@ class Fitter {
   EdgeFit Run(const std::vector<Eigen::Vector2d>& start, bool blade_on_left) {
     constexpr double kStartSmoothing = 2, kSmoothing = 1;  // px; what was fitted is smooth already
     Take(SmoothPath(start, blade_on_left, kStartSmoothing));
-    for (int round = 0; round < kSketchRounds; ++round) Improve(kSketchStride, round > 0);
+    for (int k = 0; k < kSketchRounds; ++k) Improve(k == 0 ? kFirstSketch : kSketch);
     before_ = offsets_;
     Take(SmoothPath(Shifted(path_, offsets_), blade_on_left, kSmoothing));
-    for (int round = 0; round < kImproveRounds; ++round) Improve(kImproveStride, true);
-    Solve(1, true);
+    for (int k = 0; k < kImproveRounds; ++k) Improve(kImprove);
+    Solve(kFinal);
     return Finish();
   }
 
  private:
   void Take(EdgePath path) {
     path_ = std::move(path);
+    stride_ = options_.blur_known ? 1 : 1 + path_.size() / kEnough;  // glare needs every pixel
     offsets_.assign(path_.points.size(), 0.0);
     inner_px_ = AlongPath(options_.inner_px);
     for (double& inner : inner_px_) inner -= face_moved_px_;
@@ -68,35 +80,49 @@ class Fitter {
     if (options_.blur_known) glare_ = Overexposure(band_);
   }
 
-  void Improve(int stride, bool placed) {
-    Solve(stride, false);
+  void Improve(const Round& round) {
+    Solve(round);
     MeasureNoise();
     MoveFace();
-    if (placed) UpdateBlur();  // an edge out of place looks blurred
+    if (round.placed) UpdateBlur();
     Advance();
   }
 
-  void Solve(int stride, bool last) {
-    kept_.reserve(last ? band_.pixels.size() : 0);
-    EdgeWindows windows(path_.size());
+  void Solve(const Round& round) {
+    EdgeWindows windows(path_.size(), kStretch * stride_);
     windows.Distrust(misfit_);
-    for (int i = 0; i < band_.size(); i += stride) {
+    for (int i = 0; i < band_.size(); i += round.stride * stride_) {
       for (const PreparedPixel& pixel : Prepare(i)) {
         if (pixel.weight > 0) windows.Add(i, pixel.terms, pixel.light, pixel.weight);
       }
       AddUnknownLight(i, windows);
-      if (last) kept_.insert(kept_.end(), prepared_.begin(), prepared_.end());
+      if (round.last) kept_.push_back(prepared_);
     }
     windows_ = std::move(windows);
+    SolveWindows(round);
+  }
+
+  void SolveWindows(const Round& round) {
     LevelVector precision = LevelVector::Zero();
-    if (last) precision[kSpread] = kFixed;  // the blur is known by now
-    if (!options_.model_slopes) {
-      precision[kBladeSlope] = precision[kGroundSlope] = precision[kGroundBend] = kFixed;
-    }
-    if (stride == kSketchStride)
-      precision[kGroundBend] = kFixed;  // it could take the place of the edge itself
-    windows_.Solve(precision);
-    if (options_.model_slopes) windows_.Solve(precision + windows_.SupportedSlopes());
+    if (round.last) precision[kSpread] = kFixed;
+    if (!round.bends) precision[kGroundBend] = kFixed;
+    if (!options_.model_slopes)
+      slopes_[kBladeSlope] = slopes_[kGroundSlope] = slopes_[kGroundBend] = kFixed;
+    if (options_.model_slopes && round.settles) slopes_ = SupportedSlopes(precision);
+    windows_.Solve(precision + slopes_);
+  }
+
+  // First without the bend: slope and bend together leave each other so uncertain that neither would
+  // seem supported, and a shadow along the blade would move the edge into it.
+  LevelVector SupportedSlopes(const LevelVector& precision) {
+    LevelVector straight = precision;
+    straight[kGroundBend] = kFixed;
+    windows_.Solve(straight);
+    LevelVector slopes = windows_.SupportedSlopes();
+    slopes[kGroundBend] = 0;
+    if (precision[kGroundBend] < kFixed) windows_.Solve(precision + slopes);
+    slopes[kGroundBend] = windows_.SupportedSlopes()[kGroundBend];
+    return slopes;
   }
 
   // The pixels of sample i, the edge lying offsets_[i] out of the path.
@@ -191,7 +217,7 @@ class Fitter {
   void MeasureNoise() {
     constexpr double kPlain = 0.02;  // share of the other side
     std::vector<double> blade, ground, misfit;
-    for (int i = 0; i < band_.size(); i += kNoiseStride) {
+    for (int i = 0; i < band_.size(); i += 2 * kStretch * stride_) {
       const LevelVector levels = windows_.LevelsAt(i);
       double squares = 0;
       for (const PreparedPixel& pixel : Prepare(i)) {
@@ -259,9 +285,10 @@ class Fitter {
   [[nodiscard]] std::vector<double> Step() const {
     constexpr double kMostStep =
         1.5;  // px a round; beyond, the expansion to first order means nothing
-    constexpr double kMostMove = 1.6;    // px in all; further off lies another transition
-    constexpr double kStartSigma = 1;    // px; where nothing is seen the edge stays where it was
-    constexpr double kBendSigma = 0.05;  // px; what a blade bends from one window to the next
+    constexpr double kMostMove = 1.6;  // px in all; further off lies another transition
+    constexpr double kStartSigma = 1;  // px; where nothing is seen the edge stays where it was
+    constexpr double kBendSigma =
+        0.05;  // px a stride; what a blade bends from one window to the next
     constexpr double kStartInformation = 1 / (kStartSigma * kStartSigma);
     std::vector<double> offsets, weights;
     for (size_t w = 0; w < windows_.fits().size(); ++w) {
@@ -275,7 +302,8 @@ class Fitter {
       offsets.push_back(std::clamp(moved + offset, -kMostMove, kMostMove) - moved);
       weights.push_back(weight);
     }
-    return windows_.AlongTheEdge(SmoothValues(offsets, weights, 1 / (kBendSigma * kBendSigma)));
+    return windows_.AlongTheEdge(
+        SmoothValues(offsets, weights, 1 / (stride_ * stride_ * kBendSigma * kBendSigma)));
   }
 
   [[nodiscard]] double SeenShare() const {
@@ -294,20 +322,16 @@ class Fitter {
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
+    fit.spacing = stride_;
     fit.slices = FitSlices();
     fit.path = std::move(path_);
     return fit;
   }
 
-  [[nodiscard]] std::span<const PreparedPixel> KeptOf(int i) const {
-    const int first = band_.begin[Index(i)], last = band_.begin[Index(i) + 1];
-    return std::span(kept_).subspan(Index(first), Index(last - first));
-  }
-
   [[nodiscard]] SliceTexture MeasureTexture() const {
     std::vector<SideRest> blade, ground;
-    for (int i = 0; i < band_.size(); ++i) {
-      const SliceRests rests = RestsOf(KeptOf(i), windows_.LevelsAt(i));
+    for (size_t k = 0; k < kept_.size(); ++k) {
+      const SliceRests rests = RestsOf(kept_[k], windows_.LevelsAt(static_cast<int>(k) * stride_));
       blade.push_back(rests.blade);
       ground.push_back(rests.ground);
     }
@@ -317,9 +341,11 @@ class Fitter {
   [[nodiscard]] std::vector<EdgeSlice> FitSlices() const {
     const SliceTexture texture = MeasureTexture();
     std::vector<EdgeSlice> slices;
-    for (int i = 0; i < band_.size(); ++i) {
+    for (size_t k = 0; k < kept_.size(); ++k) {
+      const int i = static_cast<int>(k) * stride_;
       slices.push_back(SolveSlice(
-          KeptOf(i), windows_.LevelsAt(i), texture, windows_.Nearest(i).kept_information));
+          kept_[k], windows_.LevelsAt(i), texture, windows_.Nearest(i).kept_information));
+      slices.back().sample = i;
       slices.back().offset_px += offsets_[Index(i)];
     }
     return slices;
@@ -333,10 +359,13 @@ class Fitter {
   EdgePath path_;
   PixelBand band_;
   Overexposure glare_;  // empty unless it can be told: without the blur, its flank may be anything
-  double face_moved_px_ = 0;                    // the blade's inner transition, towards the edge
-  std::vector<double> inner_px_;                // to the blade's inner transition, one per sample
-  std::vector<PreparedPixel> prepared_, kept_;  // of one sample; of all in the last round
-  EdgeWindows windows_{0};
+  double face_moved_px_ = 0;                      // the blade's inner transition, towards the edge
+  std::vector<double> inner_px_;                  // to the blade's inner transition, one per sample
+  int stride_ = 1;                                // of the samples that are looked at
+  std::vector<PreparedPixel> prepared_;           // of one sample
+  std::vector<std::vector<PreparedPixel>> kept_;  // of all in the last round
+  LevelVector slopes_ = LevelVector::Zero();      // precision: which slopes are needed
+  EdgeWindows windows_{0, kStretch};
   std::vector<double> misfit_;   // chi-square per pixel of stretches of the last round
   std::vector<double> offsets_;  // of the edge from the path, one per sample
   std::vector<double> before_;   // of the path from the start, evenly spaced

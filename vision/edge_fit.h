@@ -26,7 +26,8 @@ struct EdgeFitOptions {
 
 struct EdgeFit {
   EdgePath path;                  // within a fraction of a pixel of the edge
-  std::vector<EdgeSlice> slices;  // one per sample; sigma infinite where there are no pixels
+  std::vector<EdgeSlice> slices;  // sigma infinite where there are no pixels
+  int spacing = 1;                // of the slices, samples: long edges need not all of their pixels
   double seen = 0;                // share of the windows that place the edge to a third of a pixel
   double blur_px = 0;
   double overexposed =

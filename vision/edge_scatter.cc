@@ -19,14 +19,15 @@ constexpr double kMostBlur = 5;  // px; beyond, the position is a matter of tast
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
-// Neighbouring slices combined by their information; the slices are about a pixel long.
+// Neighbouring slices combined by their information.
 std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point) {
   std::vector<LocatedEdgePoint> points;
-  for (int first = 0; first < fit.path.size(); first += slices_per_point) {
-    const int last = std::min(first + slices_per_point, fit.path.size());
+  const int count = static_cast<int>(fit.slices.size());
+  for (int first = 0; first < count; first += slices_per_point) {
+    const int last = std::min(first + slices_per_point, count);
     double information = 0, offset = 0, contrast = 0;
-    for (int i = first; i < last; ++i) {
-      const EdgeSlice& slice = fit.slices[Index(i)];
+    for (int k = first; k < last; ++k) {
+      const EdgeSlice& slice = fit.slices[Index(k)];
       if (!std::isfinite(slice.sigma_px)) continue;
       const double weight = 1 / (slice.sigma_px * slice.sigma_px);
       information += weight;
@@ -34,7 +35,7 @@ std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point)
       contrast += weight * slice.contrast;
     }
     if (information <= 0) continue;
-    const size_t middle = Index((first + last - 1) / 2);
+    const size_t middle = Index(fit.slices[Index((first + last - 1) / 2)].sample);
     LocatedEdgePoint point;
     point.normal = fit.path.normals[middle];
     point.point_px = fit.path.points[middle] + offset / information * point.normal;
@@ -109,14 +110,16 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
                       " px; focus on the blades or hold the camera still");
   }
   constexpr int kPasses = 3;  // without the worst outliers the next stand out
-  const int slices_per_point = std::max(1, static_cast<int>(std::lround(options.step_px)));
+  const int slices_per_point =
+      std::max(1, static_cast<int>(std::lround(options.step_px / fit.spacing)));
+  const int spacing_px = slices_per_point * fit.spacing;
   LocatedEdge edge;
   edge.points = Combined(fit, slices_per_point);
   RejectStrays(edge.points);
   std::vector<double> scatter;
   double excess = 1;
   for (int pass = 0; pass < kPasses; ++pass) {
-    scatter = Detrend(edge.points, slices_per_point);
+    scatter = Detrend(edge.points, spacing_px);
     excess = ExcessOf(scatter);
     for (size_t i = 0; i < scatter.size(); ++i) {
       edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
@@ -127,7 +130,7 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
     edge.points[i].sigma_px *= excess;
     if (edge.points[i].inlier) inlying.push_back(scatter[i]);
   }
-  edge.correlation_px = PointsPerIndependentOne(inlying) * slices_per_point;
+  edge.correlation_px = PointsPerIndependentOne(inlying) * spacing_px;
   edge.blur_px = fit.blur_px;
   edge.noise =
       std::sqrt(0.5 * (fit.noise_blade * fit.noise_blade + fit.noise_ground * fit.noise_ground));

@@ -18,6 +18,7 @@ struct PreparedPixel {
 
 // What the pixels nearest to one sample of the path say, levels and blur being known from many.
 struct EdgeSlice {
+  int sample = 0;        // of the path
   double offset_px = 0;  // of the edge from the path, positive out of the blade
   double sigma_px = 0;   // from the pixels' noise, the levels paid for
   double contrast = 0;   // background minus blade

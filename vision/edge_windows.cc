@@ -10,28 +10,27 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kStretch = EdgeWindows::kStretch;
 constexpr int kStretchesPerStep = 2;  // from one window to the next
 constexpr int kReach = 6;             // stretches to either side of a window's centre
 constexpr int kReachAtEnds = 2;
-constexpr int kStep = kStretch * kStretchesPerStep;
 constexpr double kOverlap = (2.0 * kReach + 1) / kStretchesPerStep;  // windows that share a stretch
 
 size_t Index(int i) { return static_cast<size_t>(i); }
 
-// Window coordinate of a sample: window w is centred on the middle of stretch kStretchesPerStep *
-// w.
-double WindowPosition(int sample) { return (sample - 0.5 * (kStretch - 1)) / kStep; }
-
 }  // namespace
 
-EdgeWindows::EdgeWindows(int samples)
+EdgeWindows::EdgeWindows(int samples, int stretch)
     : samples_(samples),
-      moments_(Index((samples + kStretch - 1) / kStretch)),
+      stretch_(stretch),
+      moments_(Index((samples + stretch - 1) / stretch)),
       trust_(moments_.size(), 1.0) {}
 
+double EdgeWindows::Position(int sample) const {
+  return (sample - 0.5 * (stretch_ - 1)) / (stretch_ * kStretchesPerStep);
+}
+
 void EdgeWindows::Add(int sample, const LevelVector& terms, double light, double weight) {
-  moments_[Index(sample / kStretch)].Add(terms, light, weight);
+  moments_[Index(sample / stretch_)].Add(terms, light, weight);
 }
 
 void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
@@ -67,13 +66,13 @@ void EdgeWindows::Solve(const LevelVector& precision) {
 LevelVector EdgeWindows::SupportedSlopes() const { return SlopePrecision(fits_, kOverlap); }
 
 const LevelFit& EdgeWindows::Nearest(int sample) const {
-  const long nearest = std::lround(WindowPosition(sample));
+  const long nearest = std::lround(Position(sample));
   return fits_[static_cast<size_t>(std::clamp(nearest, 0L, static_cast<long>(fits_.size()) - 1))];
 }
 
 LevelVector EdgeWindows::LevelsAt(int sample) const {
   const int last = static_cast<int>(fits_.size()) - 1;
-  const double position = std::clamp(WindowPosition(sample), 0.0, static_cast<double>(last));
+  const double position = std::clamp(Position(sample), 0.0, static_cast<double>(last));
   const int a = static_cast<int>(position), b = std::min(a + 1, last);
   const double t = position - a;
   LevelVector levels = (1 - t) * fits_[Index(a)].levels + t * fits_[Index(b)].levels;
@@ -85,7 +84,7 @@ std::vector<double> EdgeWindows::AlongTheEdge(const std::vector<double>& of_wind
   std::vector<double> values;
   const int last = static_cast<int>(of_windows.size()) - 1;
   for (int i = 0; i < samples_; ++i) {
-    const double position = std::clamp(WindowPosition(i), 0.0, static_cast<double>(last));
+    const double position = std::clamp(Position(i), 0.0, static_cast<double>(last));
     const int a = static_cast<int>(position), b = std::min(a + 1, last);
     values.push_back(of_windows[Index(a)] +
                      (position - a) * (of_windows[Index(b)] - of_windows[Index(a)]));
@@ -94,7 +93,7 @@ std::vector<double> EdgeWindows::AlongTheEdge(const std::vector<double>& of_wind
 }
 
 int EdgeWindows::CenterSample(size_t window) const {
-  return std::min(static_cast<int>(window) * kStep, samples_ - 1);
+  return std::min(static_cast<int>(window) * stretch_ * kStretchesPerStep, samples_ - 1);
 }
 
 }  // namespace bladecurve

@@ -8,13 +8,12 @@
 
 namespace bladecurve {
 
-// Overlapping windows along an edge, one every 8 samples and about 50 long, with the levels found
-// in each. A value "along the edge" has one entry a sample.
+// Overlapping windows along an edge, one every two stretches and 13 stretches long, with the levels
+// found in each. A value "along the edge" has one entry a sample.
 class EdgeWindows {
  public:
-  static constexpr int kStretch = 4;  // samples whose pixels are kept together
-
-  explicit EdgeWindows(int samples);
+  // stretch: samples whose pixels are kept together; 4 make windows of about 50 samples.
+  EdgeWindows(int samples, int stretch);
 
   void Add(int sample, const LevelVector& terms, double light, double weight);
 
@@ -36,7 +35,10 @@ class EdgeWindows {
   [[nodiscard]] int CenterSample(size_t window) const;  // the sample a window is centred on
 
  private:
-  int samples_;
+  // Window coordinate of a sample: window w is centred on the middle of stretch 2 w.
+  [[nodiscard]] double Position(int sample) const;
+
+  int samples_, stretch_;
   std::vector<LevelMoments> moments_;  // of stretches
   std::vector<double> trust_;
   std::vector<LevelFit> fits_;
