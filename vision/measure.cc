@@ -9,6 +9,7 @@
 
 #include "vision/blade_frame.h"
 #include "vision/distal_end.h"
+#include "vision/edge_debug.h"
 #include "vision/edge_pair.h"
 #include "vision/pivot.h"
 #include "vision/refused.h"
@@ -245,6 +246,10 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
 
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
   BladeEdges edges = LocateBlades(photo, scale.tone, scene, upper_on_left);
+  if (log.wants_pictures()) {
+    log.Picture("edge-upper", DrawEdge(photo.grey(), edges.upper));
+    log.Picture("edge-lower", DrawEdge(photo.grey(), edges.lower));
+  }
   LocatedBlade upper{upper_on_left, std::move(edges.upper), {}, {}};
   LocatedBlade lower{!upper_on_left, std::move(edges.lower), {}, {}};
   Trim(photo, scene, &upper);

@@ -13,6 +13,7 @@
 
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
+#include "vision/edge_debug.h"
 #include "vision/edge_images.h"
 #include "vision/edge_path.h"
 #include "vision/refused.h"
@@ -147,6 +148,36 @@ TEST(GatherPixels, FindsEachPixelBesideAnArcOnceAndAtItsDistance) {
   EXPECT_NEAR(sum / static_cast<double>(band.pixels.size()),
               kReach * kReach / 3 / kRadius,
               10 * kDistanceTolerance);
+}
+
+int Count(const cv::Mat& bgr, const cv::Vec3b& colour) {
+  cv::Mat same;
+  cv::inRange(bgr, cv::Scalar(colour), cv::Scalar(colour), same);
+  return cv::countNonZero(same);
+}
+
+TEST(DrawEdge, ShowsEveryPointAsItWasTaken) {
+  const cv::Vec3b inlying(80, 220, 80), rejected(60, 60, 255), other(0, 230, 255);
+  cv::Mat grey(80, 120, CV_8UC1, cv::Scalar(120));
+  LocatedEdge edge;
+  for (int i = 0; i < 60; ++i) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = Vector2d(20 + i, 40);
+    point.normal = Vector2d(0, 1);
+    edge.points.push_back(point);
+  }
+  const cv::Mat plain = DrawEdge(grey, edge);
+  EXPECT_EQ(plain.type(), CV_8UC3);
+  EXPECT_GE(Count(plain, inlying), 60);
+  EXPECT_EQ(Count(plain, rejected), 0);
+  EXPECT_EQ(Count(plain, other), 0);
+
+  edge.points[30].inlier = false;
+  edge.points[30].point_px.y() += 200;  // out of sight
+  edge.rival_path_px = {Vector2d(50, 46)};
+  const cv::Mat doubtful = DrawEdge(grey, edge);
+  EXPECT_GE(Count(doubtful, rejected), 1);
+  EXPECT_EQ(Count(doubtful, other), 1);
 }
 
 }  // namespace
