@@ -3,10 +3,12 @@
 #include "model/identify.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,17 @@ struct IdentifyCommand {
   bool quiet = false;
 };
 
+// A log given twice would pass for two cuts that agree perfectly.
+void RequireDistinct(const char* flag, std::vector<std::string> files) {
+  std::sort(files.begin(), files.end());
+  const auto twice = std::adjacent_find(files.begin(), files.end());
+  if (twice != files.end())
+    throw std::invalid_argument(std::string(flag) + ": " + *twice + " is given twice");
+}
+
 IdentifyInput InputOf(const IdentifyCommand& command) {
+  RequireDistinct("--cut", command.cuts);
+  RequireDistinct("--empty", command.empties);
   RequirePositive("--thickness-mm", command.thickness_mm);
   RequirePositive("--x-edge-mm", command.x_edge_mm);
   if (command.radius_mm) RequirePositive("--radius-mm", *command.radius_mm);

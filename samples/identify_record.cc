@@ -37,14 +37,11 @@ std::string Text(const Json& json, int indent) {
 }
 
 std::string ValueLine(const char* name, const Identified& value, const char* unit) {
-  if (std::isnan(value.uncertainty))
-    return fmt::format("  {:<4} {:.4g} {}, uncertainty unknown\n", name, value.mean, unit);
+  const std::string mean = fmt::format("  {:<4} {:.4g} {}", name, value.mean, unit);
+  if (std::isnan(value.uncertainty)) return mean + ", uncertainty unknown\n";
   return fmt::format(
-      "  {:<4} {:.4g} {} +- {:.2g} (twice that holds it in 95 %; of that the blade "
-      "{:.2g}); cuts scatter by {:.2g}\n",
-      name,
-      value.mean,
-      unit,
+      "{}, standard uncertainty {:.2g} (of the blade {:.2g}); cuts scatter by {:.2g}\n",
+      mean,
       value.uncertainty,
       value.from_blade,
       value.deviation);

@@ -124,8 +124,10 @@ void Deliver(const std::string& file, const std::string& text) {
 std::vector<MotionSample> MotionInRealTime(const TorqueCommand& command,
                                            const TorqueModel& model,
                                            const PlateSpan& span,
+                                           const std::optional<FrictionCurve>& friction,
                                            const std::vector<MotionSample>& wanted) {
   RealTimeOptions options;
+  options.friction = friction;
   options.rate_hz = command.rate_hz;
   options.seconds = command.seconds;
   options.radius_mm = command.radius_mm.value_or(0);
@@ -169,7 +171,7 @@ void RunTorque(const TorqueCommand& command) {
   const TorqueModel model(blade.curve, material, span, OptionsOf(command));
 
   if (!command.quiet) std::cerr << HeadLine(blade, material, span, command.policy);
-  if (command.is_real_time) motion = MotionInRealTime(command, model, span, motion);
+  if (command.is_real_time) motion = MotionInRealTime(command, model, span, friction, motion);
   const CutRun run = RunCut(model, motion, radius_mm, friction);
   if (!command.quiet) std::cerr << CutSummary(run);
   Deliver(command.csv, CutCsv(run));

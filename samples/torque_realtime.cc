@@ -21,6 +21,7 @@ using Microseconds = std::chrono::duration<double, std::micro>;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kMostTicks = 1e7;  // 160 MB of times
+constexpr double kPlay_mm = 0.05;   // of the handle before it slides: far below what a hand feels
 
 // The hand, and the scissors in it.
 class HeldModel {
@@ -30,7 +31,8 @@ class HeldModel {
         wanted_(wanted),
         radius_mm_(o.radius_mm),
         tick_s_(1 / o.rate_hz),
-        hand_(o.hand, tick_s_) {}
+        hand_(o.hand, tick_s_),
+        friction_(o.friction) {}
 
   [[nodiscard]] bool is_through_path() const { return tick_ == wanted_.size(); }
   [[nodiscard]] MotionSample now() const {
@@ -39,12 +41,16 @@ class HeldModel {
 
   void TakeNewPlate() {
     model_.Reset();
+    stick_slide_.Reset();
     handle_ = {};
     tick_ = 0;
   }
 
   // The step of the model, which is what has to be fast.
-  void Step() noexcept { force_n_ = model_.Step(theta_rad(), 0, tick_s_).torque_nmm / radius_mm_; }
+  void Step() noexcept {
+    force_n_ = model_.Step(theta_rad(), 0, tick_s_).torque_nmm / radius_mm_;
+    if (friction_) force_n_ += stick_slide_.Step(handle_.place_mm, CoulombLevel());
+  }
 
   void MoveHand() noexcept {
     const double closed_rad = wanted_.front().theta_rad() - wanted_[tick_].theta_rad();
@@ -57,11 +63,18 @@ class HeldModel {
     return wanted_.front().theta_rad() - handle_.place_mm / radius_mm_;
   }
 
+  [[nodiscard]] double CoulombLevel() const noexcept {
+    const bool closes = handle_.speed_mm_per_s >= 0;
+    return closes ? friction_->Closing(theta_rad()) : -friction_->Opening(theta_rad());
+  }
+
   TorqueModel model_;
   const std::vector<MotionSample>& wanted_;
   double radius_mm_, tick_s_;
   HandMotion hand_;
   HandleState handle_;
+  std::optional<FrictionCurve> friction_;
+  StickSlide stick_slide_{kPlay_mm};
   double force_n_ = 0;
   std::size_t tick_ = 0;
 };

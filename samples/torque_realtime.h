@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "model/friction.h"
 #include "model/torque.h"
 #include "samples/cut_motion.h"
 #include "samples/torque_hand.h"
@@ -16,6 +18,7 @@ struct RealTimeOptions {
   double seconds = 0;  // closes through a new plate again and again so long; 0: once
   double radius_mm = 0;
   Hand hand;
+  std::optional<FrictionCurve> friction;  // Coulomb level of a stick-slide friction at the handle
 };
 
 // What a loop against the clock did. Times by the steady clock.
@@ -26,8 +29,8 @@ struct RealTimeRun {
   int missed = 0;                    // ticks that were not done when the next one was due
 };
 
-// A loop at rate_hz: wakes, steps the model at the angle of a simulated hand that is drawn along
-// `wanted`, gives the hand the force. Nothing is allocated while it runs.
+// A loop at rate_hz: wakes, steps the model (and friction) at the angle of a simulated hand that is
+// drawn along `wanted`, gives the hand the force. Nothing is allocated while it runs.
 // Throws std::invalid_argument for options that cannot be, or more than ten million ticks.
 [[nodiscard]] RealTimeRun RunRealTime(TorqueModel model,
                                       const std::vector<MotionSample>& wanted,

@@ -127,6 +127,7 @@ TEST_F(IdentifyCommand, WrongUseIsSaidOnOneLine) {
                         {"identify --cut cut0.csv" + plate, "--empty"},
                         {kLogs + plate, "--radius-mm"},
                         {kLogs + plate + " --radius-mm 0", "--radius-mm"},
+                        {kLogs + std::string(" cut.csv --empty cut.csv cut.csv") + plate, "twice"},
                         {kLogs + plate + " --radius-mm 98 --tickness-mm 1", "--thickness-mm?"},
                         {kLogs + std::string(" --blade small.blade.json --thickness-mm 0 "
                                              "--x-edge-mm 45 --x-end-mm 68 --radius-mm 98"),

@@ -154,6 +154,17 @@ TEST_F(TorqueCommand, RunsInRealTimeAndReportsIt) {
   EXPECT_LT(csv.Get("theta_deg").back(), 10);
 }
 
+TEST_F(TorqueCommand, FrictionHoldsTheHandBackInRealTime) {
+  WriteText(folder_ / "friction.csv", "theta_deg,closing_n\n0,4\n40,4\n");
+  const std::string run =
+      "small.blade.json --material paper --close-deg 28:4 --rate-deg-per-s 200 --radius-mm 98 "
+      "--realtime";
+  const double free_deg = Csv(run).Get("theta_deg").back();
+  const double held_deg = Csv(run + " --friction friction.csv").Get("theta_deg").back();
+  // The hand's spring of 0.5 N/mm lags by 4 N of friction over 98 mm of handle.
+  EXPECT_NEAR((held_deg - free_deg) * kRad, 4 / 0.5 / 98, 0.5 * kRad);
+}
+
 TEST_F(TorqueCommand, PlotsAsSvg) {
   ASSERT_EQ(Run(std::string(kCut) + " --quiet --plot cut.svg").exit_code, 0);
   const std::string svg = ReadText(folder_ / "cut.svg");
