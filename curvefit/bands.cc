@@ -35,12 +35,14 @@ BladeCurve Moved(const BladeCurve& curve, const Eigen::VectorXd& by) {
 }  // namespace
 
 CurveBand::CurveBand(const FamilyFit& fit) : curve_(fit.curve) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.covariance);
+  if (fit.finer) curve_ = BladeCurve(fit.finer->curve, fit.curve.domain());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(fit.finer ? fit.finer->covariance
+                                                                       : fit.covariance);
   for (Eigen::Index k = 0; k < eigen.eigenvalues().size(); ++k) {
     const double variance = eigen.eigenvalues()(k);
     if (!(variance > 0)) continue;
     const Eigen::VectorXd by = kStep * std::sqrt(variance) * eigen.eigenvectors().col(k);
-    displaced_.push_back({Moved(fit.curve, by), Moved(fit.curve, -by)});
+    displaced_.push_back({Moved(curve_, by), Moved(curve_, -by)});
   }
 }
 

@@ -53,15 +53,6 @@ class ShapePoints {
   bool straight_;
 };
 
-template <int Degree>
-Eigen::Matrix<double, Degree + 1, Degree + 1> BasisOf(const Span& span) {
-  Eigen::Matrix<double, Degree + 1, Degree + 1> basis;  // powers of t by functions
-  for (int j = 0; j <= Degree; ++j) {
-    for (int k = 0; k <= Degree; ++k) basis(k, j) = span.basis[j][k];
-  }
-  return basis;
-}
-
 // The leverage of a point of weight 1 in each span, as powers of t up to twice the degree.
 template <int Degree>
 std::vector<std::array<double, 2 * Degree + 1>> LeverageOf(const FitData& data,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "curvefit/diagnostics.h"
+#include "curvefit/finer_curve.h"
 #include "curvefit/linear_spline.h"
 #include "curvefit/spline_frame.h"
 #include "curvefit/spline_shape.h"
@@ -236,6 +237,7 @@ FamilyFit FitSpline(const FamilyInput& input,
   const double length_mm = attempt.data.length_mm;
   fit.curve = CurveOf(space, state, length_mm, input.domain);
   fit.covariance = SplineCovariance(joint, space, state, attempt.data.theta_given(), length_mm);
+  fit.finer = RefineCurve(attempt.data, model, state, fit.covariance);
   std::vector<std::string> free_names;
   for (int j = 0; j < space.size(); ++j) {
     fit.parameter_names.push_back(std::string("c").append(std::to_string(j)).append("_mm"));

@@ -46,12 +46,13 @@ struct FittedPose {
 struct FamilyFit {
   BladeCurve curve{TaperedRectangle{}, {0, 1, 0, 1}};  // y = 0 until one is fitted
   std::vector<std::string>
-      parameter_names;            // "a_mm", "b", "gain" (if free) or "c0_mm", "c1_mm", ...
-  Eigen::MatrixXd covariance;     // of them, in that order; all systematic parts included
-  std::vector<FittedPose> poses;  // one a photograph
-  double rms_mm = kNotSet;        // orthogonal, of the upper edges' inliers
-  int points = 0, inliers = 0;    // of the upper edges
-  double effective_points = 0;    // neighbours are correlated
+      parameter_names;              // "a_mm", "b", "gain" (if free) or "c0_mm", "c1_mm", ...
+  Eigen::MatrixXd covariance;       // of them, in that order; all systematic parts included
+  std::optional<FinerCurve> finer;  // of a spline: the bands of the curve come from this
+  std::vector<FittedPose> poses;    // one a photograph
+  double rms_mm = kNotSet;          // orthogonal, of the upper edges' inliers
+  int points = 0, inliers = 0;      // of the upper edges
+  double effective_points = 0;      // neighbours are correlated
   double chi2 = kNotSet, freedom = kNotSet;  // of edges and pose observations together
   double pose_chi2 = kNotSet;                // of the pose observations alone
   double disagreement = 0;                   // of several photographs: rms, in sigmas of a point

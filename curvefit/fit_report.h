@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "model/blade_curve.h"
+
 namespace bladecurve {
 
 inline constexpr double kNotSet = std::numeric_limits<double>::quiet_NaN();
@@ -52,6 +54,14 @@ struct Influence {
 struct UndeterminedDirection {
   std::vector<double> direction;
   std::string text;  // the parameters with the largest share
+};
+
+// The fitted spline written over finer knots, for its bands: what the chosen degree and knots may
+// have missed has room there.
+struct FinerCurve {
+  RigidSpline curve;
+  Eigen::MatrixXd covariance;  // of its coefficients, mm^2
+  double effective_coefficients = 0;  // that the points determine, knots left open
 };
 
 // How the sigmas of one edge had to be widened before they agreed with its scatter.

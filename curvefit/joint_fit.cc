@@ -214,6 +214,16 @@ double PoseChi2(const FitData& data, const JointModel& model, const JointState& 
   return chi2;
 }
 
+RigidSpline SplineInMm(const SplineSpace& space,
+                       const Eigen::VectorXd& coefficients,
+                       double length_mm) {
+  RigidSpline spline;
+  spline.degree = space.degree;
+  for (const double k : space.knots) spline.knots_mm.push_back(k * length_mm);
+  for (const double value : coefficients) spline.coefficients_mm.push_back(value * length_mm);
+  return spline;
+}
+
 BladeCurve CurveOf(const SplineSpace& space,
                    const JointState& state,
                    double length_mm,
@@ -224,11 +234,7 @@ BladeCurve CurveOf(const SplineSpace& space,
   if (!c.allFinite() || c.cwiseAbs().maxCoeff() > kRunaway) {
     throw Refused(Reason::kFitFailed, "fit: the spline ran away from the edge");
   }
-  RigidSpline spline;
-  spline.degree = space.degree;
-  for (const double k : space.knots) spline.knots_mm.push_back(k * length_mm);
-  for (const double value : c) spline.coefficients_mm.push_back(value * length_mm);
-  return {spline, domain};
+  return {SplineInMm(space, c, length_mm), domain};
 }
 
 std::vector<FittedPose> PosesInMm(const FitData& data,

@@ -76,6 +76,10 @@ struct JointEstimate {
                               const JointModel& model,
                               const JointState& state);
 
+[[nodiscard]] RigidSpline SplineInMm(const SplineSpace& space,
+                                     const Eigen::VectorXd& coefficients,
+                                     double length_mm);
+
 // The spline of a solved state. Throws Refused{kFitFailed} if it has left the blade far behind.
 [[nodiscard]] BladeCurve CurveOf(const SplineSpace& space,
                                  const JointState& state,

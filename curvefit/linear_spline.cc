@@ -39,10 +39,7 @@ struct NormalEquations {
   void AddFirst(const Span& span, int first, const SpanSums<Degree, Extra>& sums) {
     constexpr int kBasis = Degree + 1;
     const auto products = sums.AllProducts();
-    Eigen::Matrix<double, kBasis, kBasis> basis;
-    for (int j = 0; j < kBasis; ++j) {
-      for (int k = 0; k < kBasis; ++k) basis(k, j) = span.basis[j][k];
-    }
+    const auto basis = BasisOf<Degree>(span);
     matrix.block<kBasis, kBasis>(first, first) +=
         basis.transpose() * products.template topLeftCorner<kBasis, kBasis>() * basis;
     right.segment<kBasis>(first) +=
@@ -57,9 +54,7 @@ struct NormalEquations {
     const auto products = sums.AllProducts();
     Eigen::Matrix<double, kBasis + 2, kBasis + kMotions> columns;
     columns.setZero();
-    for (int j = 0; j < kBasis; ++j) {
-      for (int k = 0; k < kBasis; ++k) columns(k, j) = span.basis[j][k];
-    }
+    columns.template topLeftCorner<kBasis, kBasis>() = BasisOf<Degree>(span);
     columns(0, kBasis) = 1;
     columns(0, kBasis + 1) = span.centre;  // u = centre + t/scale
     columns(1, kBasis + 1) = 1 / span.scale;

@@ -3,8 +3,9 @@
 #include "curvefit/spline_frame.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
+
+#include "curvefit/spline_shape.h"
 
 namespace bladecurve {
 namespace {
@@ -30,17 +31,6 @@ PlaceOnCurve EvalSpline(const SplineSpace& space, const Eigen::VectorXd& coeffic
     place.slope += row.slope[j] * coefficients(row.first + j);
   }
   return place;
-}
-
-// Coefficients of the spline through given values at the Greville abscissae: always solvable.
-Eigen::MatrixXd Interpolated(const SplineSpace& space, const Eigen::MatrixXd& values) {
-  const std::vector<double> places = GrevilleAbscissae(space);
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(space.size(), space.size());
-  for (int i = 0; i < space.size(); ++i) {
-    const BasisRow row = EvalBasis(space, places[i]);
-    for (int j = 0; j <= space.degree; ++j) basis(i, row.first + j) = row.value[j];
-  }
-  return basis.partialPivLu().solve(values);
 }
 
 // v in the blade's frame of the curve at the blade's u: Newton on the spline's own u.
@@ -118,7 +108,7 @@ Eigen::VectorXd InBladeFrame(const SplineSpace& space,
   for (const double u : GrevilleAbscissae(space)) {
     heights(i++) = HeightInBlade(space, coefficients, motion, u);
   }
-  return Interpolated(space, heights);
+  return SplineThrough(space, heights);
 }
 
 Eigen::MatrixXd FrameJacobian(const SplineSpace& space,
@@ -137,7 +127,7 @@ Eigen::MatrixXd FrameJacobian(const SplineSpace& space,
   Eigen::Matrix4d by_pose = Eigen::Matrix4d::Identity();
   by_pose.topLeftCorner<2, 2>() = turn;
   by_pose.col(3) << by_scale * turn * PivotOf(first_pose.data()), 0, by_scale;
-  return Interpolated(space, by_motion) * by_pose;
+  return SplineThrough(space, by_motion) * by_pose;
 }
 
 }  // namespace bladecurve

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "curvefit/spline_shape.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace bladecurve {
@@ -39,6 +40,16 @@ SplineCoefficients CoefficientsOf(const SplineSpace& space,
   c.jacobian.col(n - 1) = -along * (slope + lift / end.x());
   c.jacobian.col(n) = along;
   return c;
+}
+
+Eigen::MatrixXd SplineThrough(const SplineSpace& space, const Eigen::MatrixXd& values) {
+  const std::vector<double> places = GrevilleAbscissae(space);
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(space.size(), space.size());
+  for (int i = 0; i < space.size(); ++i) {
+    const BasisRow row = EvalBasis(space, places[i]);
+    for (int j = 0; j <= space.degree; ++j) basis(i, row.first + j) = row.value[j];
+  }
+  return basis.partialPivLu().solve(values);
 }
 
 std::vector<double> FreeCoefficients(const SplineSpace& space,

@@ -25,6 +25,11 @@ struct SplineCoefficients {
                                                 const double* free,
                                                 const Eigen::Vector2d& end);
 
+// Coefficients of the splines through given values at the Greville abscissae, a column each: always
+// solvable.
+[[nodiscard]] Eigen::MatrixXd SplineThrough(const SplineSpace& space,
+                                            const Eigen::MatrixXd& values);
+
 // The free coefficients of a spline.
 [[nodiscard]] std::vector<double> FreeCoefficients(const SplineSpace& space,
                                                    const Eigen::VectorXd& coefficients);
