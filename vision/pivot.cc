@@ -65,13 +65,13 @@ Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
 constexpr double kHeadMm = 2.0, kHeadSigmaMm = 0.6;
 
 // Seen a little from the side, the head is not where the axis meets the plane of the edges. Without
-// markers nobody knows from which side: heads are about a fifth of the shank's width high, views
+// markers nobody knows from which side: heads are about a tenth of the shank's width high, views
 // about five degrees off.
 PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene& scene) {
   if (scale.sheet) {
     return FootOf(*scale.sheet, {head_px, scale.plane_height_mm, kHeadMm, kHeadSigmaMm});
   }
-  const double sigma = 0.2 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
+  const double sigma = 0.1 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
   return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 
@@ -86,9 +86,9 @@ Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
   return AlongAcross(major, even_px, std::hypot(even_px, one_sided_px));
 }
 
-// A near look first: fewer other arcs compete. Then all along the overlap, where joints put their
-// screws: a fifth to three fifths of the way from the shanks' crotch to the blades'; the clearest
-// counts.
+// A near look first: fewer other arcs compete. Where that leaves doubts, all along the overlap,
+// where joints put their screws: a fifth to three fifths of the way from the shanks' crotch to the
+// blades'; the clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
                                   const ToneCurve& tone,
                                   const Scene& scene,
@@ -100,9 +100,10 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
   search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
   search.guess_px = guess_px;
   search.radius_px = 0.35 * scene.shank_width_px;
-  if (std::optional<Screw> screw = FindScrew(grey, tone, search)) return screw;
+  constexpr double kBeyondDoubt = 20;  // evidence; shadows and facets of the joint reach 12
+  std::optional<Screw> clearest = FindScrew(grey, tone, search);
+  if (clearest && clearest->evidence > kBeyondDoubt) return clearest;
   const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
-  std::optional<Screw> clearest;
   for (const double share : {0.25, 0.4, 0.55}) {
     search.guess_px = scene.shank_crotch_px + share * overlap;
     search.radius_px =
