@@ -114,7 +114,10 @@ TEST(FindScale, ReadsThePrintedCardExactly) {
   constexpr double kDpi = 150;
   for (const Paper paper : {Paper::kA4, Paper::kLetter}) {
     const Card card = BuiltInCard(paper);
-    const ScaleResult result = FindScale(Save(Photographed(card, kDpi), card.name + ".png"), {});
+    ScaleOptions options;
+    options.plane_height_mm = 0;
+    const ScaleResult result =
+        FindScale(Save(Photographed(card, kDpi), card.name + ".png"), options);
     ASSERT_TRUE(result.map.has_value());
     EXPECT_EQ(result.map->source(), "card");
     EXPECT_EQ(result.markers.size(), card.markers.size());

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// Scale from rendered photographs of sheets with markers, some of them under the scissors.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vision/card.h"
+#include "vision/png_writer.h"
+#include "vision/render.h"
+#include "vision/scale.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector2d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The card lying under the camera, its middle in the middle of the picture.
+SceneSpec OnCard(const Card& card, double tilt_rad) {
+  SceneSpec scene;
+  scene.width = 1800;
+  scene.height = 1350;
+  scene.camera = {.mm_per_px = 0.2, .distance_mm = 420, .tilt_rad = tilt_rad, .k1 = -0.02};
+  scene.camera.tilt_azimuth_rad = 0.7;
+  scene.pivot_mm = {-45, 0};  // the rings lie on markers at the border
+  const Vector2d middle_mm(0.5 * card.width_mm, 0.5 * card.height_mm);
+  for (const Card::Marker& marker : card.markers) {
+    scene.markers.push_back({.id = marker.id,
+                             .size_mm = card.marker_mm,
+                             .center_mm = marker.centre_mm - middle_mm,
+                             .margin_mm = 3});
+  }
+  return scene;
+}
+
+Photo Save(const RenderedPhoto& photo, const std::string& name) {
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  WritePng(path, photo.bgr);
+  return Photo::Load(path);
+}
+
+fs::path SaveCalibration(const SceneTruth& truth, const std::string& name) {
+  const Eigen::Matrix3d& k = truth.camera.k;
+  const nlohmann::json calibration = {
+      {"width", truth.width},
+      {"height", truth.height},
+      {"K",
+       {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
+      {"dist", {truth.camera.k1, 0, 0, 0}}};
+  const fs::path path = fs::path(testing::TempDir()) / name;
+  std::ofstream(path) << calibration;
+  return path;
+}
+
+Vector2d Image(const CameraTruth& camera, const Eigen::Vector3d& world_mm) {
+  const Eigen::Vector3d p = camera.camera_from_world * world_mm + camera.world_in_camera_mm;
+  const Vector2d ideal = p.head<2>() / p.z();
+  return camera.k(0, 0) * ideal * (1 + camera.k1 * ideal.squaredNorm()) +
+         camera.k.block<2, 1>(0, 2);
+}
+
+// Of lengths of 100 mm at that height, lying in several places and directions within the card.
+double WorstOf100Mm(const PlaneMap& map, const CameraTruth& camera, double height_mm) {
+  const std::vector<std::pair<Vector2d, Vector2d>> lengths = {
+      {{-50, 0}, {50, 0}}, {{0, -50}, {0, 50}}, {{-100, -40}, {-20, 20}}, {{10, 40}, {110, 40}}};
+  double worst = 0;
+  for (const auto& [from, to] : lengths) {
+    const auto seen = [&](const Vector2d& mm) {
+      return map.PlaneFromImage(Image(camera, {mm.x(), mm.y(), height_mm}));
+    };
+    worst = std::max(worst, std::abs((seen(to) - seen(from)).norm() - (to - from).norm()));
+  }
+  return worst;
+}
+
+bool Warns(const ScaleResult& result, const std::string& code) {
+  const std::vector<std::string>& warnings = result.map->warnings();
+  return std::find(warnings.begin(), warnings.end(), code) != warnings.end();
+}
+
+struct CardPhoto {
+  Photo photo;
+  SceneTruth truth;
+  fs::path calibration;
+};
+
+CardPhoto Photographed(const SceneSpec& scene, const std::string& name) {
+  const RenderedPhoto rendered = RenderScene(scene);
+  return {Save(rendered, name + ".png"),
+          rendered.truth,
+          SaveCalibration(rendered.truth, name + ".camera.json")};
+}
+
+// Rendered once for all tests.
+const CardPhoto& CardSquarely() {
+  static const CardPhoto photo = Photographed(OnCard(BuiltInCard(Paper::kA4), 0), "square");
+  return photo;
+}
+const CardPhoto& CardTilted() {
+  static const CardPhoto photo =
+      Photographed(OnCard(BuiltInCard(Paper::kA4), 20 * kDegree), "tilted");
+  return photo;
+}
+
+// The scissors cover some of the markers; a lens that bends and a tilt of 20 degrees.
+TEST(FindScale, MeasuresAHundredMillimetresOnATiltedCardUnderScissors) {
+  constexpr double kOnTheSheetMm = 0.02, kAboveItMm = 0.05;
+  for (const CardPhoto* photo : {&CardSquarely(), &CardTilted()}) {
+    const CardPhoto& seen = *photo;
+    ScaleOptions options;
+    options.camera = seen.calibration;
+    options.plane_height_mm = 0;
+    const ScaleResult on_sheet = FindScale(seen.photo, options);
+    EXPECT_LT(on_sheet.markers.size(), seen.truth.markers.size()) << "the scissors cover none";
+    EXPECT_LE(WorstOf100Mm(*on_sheet.map, seen.truth.camera, 0), kOnTheSheetMm);
+    options.plane_height_mm = 2;
+    const ScaleResult above = FindScale(seen.photo, options);
+    EXPECT_LE(WorstOf100Mm(*above.map, seen.truth.camera, 2), kAboveItMm);
+    EXPECT_GT(WorstOf100Mm(*on_sheet.map, seen.truth.camera, 2), 0.3) << "height matters";
+  }
+}
+
+TEST(FindScale, SaysThatTheHeightOfTheBladesIsNotKnown) {
+  const CardPhoto& seen = CardSquarely();
+  ScaleOptions options;
+  options.camera = seen.calibration;
+  const ScaleResult unknown = FindScale(seen.photo, options);
+  options.plane_height_mm = 2;
+  const ScaleResult known = FindScale(seen.photo, options);
+  EXPECT_TRUE(Warns(unknown, "plane_height_unknown"));
+  EXPECT_FALSE(Warns(known, "plane_height_unknown"));
+  // Blades lie up to 3.5 mm above the sheet, here seen from 420 mm: the 95 % interval holds them.
+  for (const double height_mm : {0.5, 2.0, 3.5}) {
+    EXPECT_LT(height_mm / (420 - height_mm), 1.96 * unknown.map->relative_sigma()) << height_mm;
+  }
+  EXPECT_LT(known.map->relative_sigma(), 0.2 * unknown.map->relative_sigma());
+}
+
+TEST(FindScale, WarnsWhereFourCornersAreAllThereIs) {
+  SceneSpec scene = OnCard(BuiltInCard(Paper::kA4), 0);
+  scene.markers.resize(1);
+  const CardPhoto seen = Photographed(scene, "four-corners");
+  ScaleOptions options;
+  options.marker_mm = scene.markers.front().size_mm;
+  EXPECT_TRUE(Warns(FindScale(seen.photo, options), "scale_four_corners"));
+}
+
+TEST(FindScale, WarnsOfACameraTooNear) {
+  SceneSpec scene = OnCard(BuiltInCard(Paper::kA4), 0);
+  scene.camera.distance_mm = 230;
+  const CardPhoto seen = Photographed(scene, "near");
+  ScaleOptions options;
+  options.camera = seen.calibration;
+  EXPECT_TRUE(Warns(FindScale(seen.photo, options), "camera_near"));
+  options.camera = CardSquarely().calibration;  // 420 mm
+  EXPECT_FALSE(Warns(FindScale(CardSquarely().photo, options), "camera_near"));
+}
+
+// Paper that is not flat moves markers by a fraction of a millimetre each.
+TEST(FindScale, WarnsOfABentSheetAndWidensTheUncertainty) {
+  SceneSpec scene = OnCard(BuiltInCard(Paper::kA4), 0);
+  const CardPhoto& flat = CardSquarely();
+  std::mt19937 random(7);
+  for (MarkerSpec& marker : scene.markers) {
+    const auto off = [&] { return 0.3 * (static_cast<double>(random()) * 0x1p-31 - 1); };
+    marker.center_mm += Vector2d(off(), off());
+  }
+  const CardPhoto bent = Photographed(scene, "bent");
+  ScaleOptions options;
+  options.camera = flat.calibration;
+  options.plane_height_mm = 0;
+  const ScaleResult of_flat = FindScale(flat.photo, options);
+  const ScaleResult of_bent = FindScale(bent.photo, options);
+  EXPECT_FALSE(Warns(of_flat, "sheet_bent"));
+  EXPECT_TRUE(Warns(of_bent, "sheet_bent"));
+  EXPECT_GT(of_bent.map->relative_sigma(), 1.1 * of_flat.map->relative_sigma());
+}
+
+// The head of a screw h above the plane of the edges is seen beside the place below it.
+TEST(FootOf, FindsThePlaceBelowARaisedPoint) {
+  const CardPhoto& seen = CardTilted();
+  ScaleOptions options;
+  options.camera = seen.calibration;
+  const ScaleResult result = FindScale(seen.photo, options);
+  ASSERT_TRUE(result.sheet.has_value());
+  const Vector2d head_px = Image(seen.truth.camera, {20, 10, 4});
+  const Vector2d foot_px = Image(seen.truth.camera, {20, 10, 2});
+  ASSERT_GT((head_px - foot_px).norm(), 2);
+  const PlacePx foot = FootOf(*result.sheet, {head_px, 2, 2, 0.5});
+  EXPECT_LT((foot.point_px - foot_px).norm(), 0.02);
+  // A quarter of the height uncertain: a quarter of the way.
+  EXPECT_NEAR(std::sqrt(foot.covariance_px2.trace()), 0.25 * (head_px - foot_px).norm(), 0.05);
+}
+
+}  // namespace
+}  // namespace bladecurve
