@@ -81,28 +81,6 @@ StepLine LineWithin(
                       kStiffBend);
 }
 
-// The next line further out, where it is about as clear and as high: what lies outside a silhouette
-// is not.
-StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px) {
-  constexpr int kApart = 2, kWidest = 8;             // px; bevels and glints along an edge
-  constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
-  const StepLine outer =
-      FindBestLine(survey.map,
-                   Scores(survey,
-                          [&](int station, int row) {
-                            const int outwards = row - line.rows[Index(station)];
-                            if (outwards <= kApart || outwards > kWidest) return kForbidden;
-                            if (std::abs(survey.FromGuess(station, row)) > search_px)
-                              return kForbidden;
-                            return survey.map.clear[survey.map.At(station, row)];
-                          }),
-                   kStiffBend);
-  const bool clear = outer.score > kAsClear * line.score;
-  const bool high = std::abs(TypicalHeight(survey.map, outer)) >
-                    kAsHigh * std::abs(TypicalHeight(survey.map, line));
-  return clear && high ? outer : line;
-}
-
 double LengthOf(const EdgePath& path) {
   double length = 0;
   for (size_t i = 1; i < path.points.size(); ++i)
@@ -110,18 +88,73 @@ double LengthOf(const EdgePath& path) {
   return length;
 }
 
+// Median height along the line, clear or not.
+double HeightUnder(const StepMap& map, const StepLine& line) {
+  std::vector<double> heights;
+  for (int station = 0; station < map.stations; ++station)
+    heights.push_back(map.height[map.At(station, line.rows[Index(station)])]);
+  return Median(std::move(heights));
+}
+
+// How wide a bevel may be, px: sharper photographs show more of it.
+double WidestBevel(const Survey& survey) {
+  constexpr double kLeast = 7, kPerLength = 0.02;
+  return kLeast + kPerLength * LengthOf(survey.path);
+}
+
+// A fall of light, going outwards, far greater than that of a line: no shadow does that, however
+// soft it is.
+bool FallsDeeper(const StepMap& map, int station, int row, double line_height) {
+  constexpr double kFar = 1.25;  // times the line's height, which a soft step shows little of
+  const float* height = &map.height[map.At(station, row)];
+  return *height < -kFar * std::abs(line_height) && *height <= height[-1] && *height <= height[1];
+}
+
+// Share of its stations in which the line is clear or a deep fall of light, however soft.
+double SeenShare(const Survey& survey, const StepLine& line) {
+  constexpr float kClear = 0.5F;
+  constexpr double kDeep = 10;  // times what texture does
+  const StepMap& map = survey.map;
+  int seen = 0;
+  for (int station = 0; station < map.stations; ++station) {
+    const int row = line.rows[Index(station)];
+    seen += map.clear[map.At(station, row)] > kClear ||
+            FallsDeeper(map, station, row, kDeep * map.background_response);
+  }
+  return static_cast<double>(seen) / map.stations;
+}
+
+// The next line further out, where it is about as clear and as high: what lies outside a silhouette
+// is not.
+StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px) {
+  constexpr int kApart = 2;                          // px; nearer lines are the same
+  constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
+  const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
+  const StepLine outer =
+      FindBestLine(survey.map,
+                   Scores(survey,
+                          [&](int station, int row) {
+                            const int outwards = row - line.rows[Index(station)];
+                            if (outwards <= kApart || outwards > widest) return kForbidden;
+                            if (std::abs(survey.FromGuess(station, row)) > search_px)
+                              return kForbidden;
+                            if (FallsDeeper(survey.map, station, row, height)) return 1.0F;
+                            return survey.map.clear[survey.map.At(station, row)];
+                          }),
+                   kStiffBend);
+  const bool clear = outer.score > kAsClear * line.score;
+  const bool high = std::abs(HeightUnder(survey.map, outer)) > kAsHigh * std::abs(height);
+  return clear && high ? outer : line;
+}
+
 // A dark band between bright metal and a bright background is the bevel where it is narrow; where
 // it is wide, and a sharp step bounds it on the blade's side as well, it is a hard shadow and the
 // border is that inner step.
 StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double search_px) {
-  constexpr double kWidestBevel = 7,
-                   kBevelPerLength =
-                       0.004;  // px, and px a px of edge: sharper photographs show more
   constexpr double kSeen = 0.6, kHigh = 0.5;  // of the outer border's share and height
   const double height = TypicalHeight(survey.map, line);
   if (height <= 0) return line;
-  const int apart =
-      static_cast<int>(std::lround(kWidestBevel + kBevelPerLength * LengthOf(survey.path)));
+  const int apart = static_cast<int>(std::lround(WidestBevel(survey)));
   const StepLine inner = LineWithin(survey, line, apart, search_px, -1);
   const bool seen = ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line);
   return seen && -TypicalHeight(survey.map, inner) > kHigh * height ? inner : line;
@@ -226,8 +259,12 @@ Surveyed SurveyAndLine(const cv::Mat& grey, const EdgePath& guess, double search
 ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
   const auto [survey, line] = SurveyAndLine(grey, guess, search_px);
   ChosenTransition chosen;
+  // Sharper steps than a fall of light at the border are drawn or engraved, not photographed; where
+  // it gets brighter outwards the border may lie in a shadow, which would soften it.
   chosen.blur_px = survey.map.blur_px;
-  chosen.support = ClearShare(survey.map, line);
+  if (HeightUnder(survey.map, line) < 0)
+    chosen.blur_px = std::max(chosen.blur_px, BlurUnder(survey.map, line.rows));
+  chosen.support = SeenShare(survey, line);
   CompareWithRival(survey, line, search_px, chosen);
   const int spacing = survey.map.layout.spacing, samples = survey.path.size();
   chosen.inner_px = Spread(FreeDistances(survey.map, line, -1), spacing, samples);

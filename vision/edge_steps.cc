@@ -135,6 +135,10 @@ double SharpVariance(const StepMap& map) {
   return variances.empty() ? 1.5 : SampleQuantile(std::move(variances), kShare);
 }
 
+double BlurOf(double step_variance) {
+  return std::sqrt(std::max(step_variance - kOwnVariance, kLeastBlur * kLeastBlur));
+}
+
 double Clearness(const Place& place, double background_response, double sharp_variance) {
   constexpr double kPenumbra =
       2;  // px^2 of variance beyond the sharp steps': half-way from blade to soft shadow
@@ -156,13 +160,23 @@ StepMap FindSteps(const StraightBand& band, const StationLayout& layout, int bac
   FindHeights(band, map);
   map.background_response = BackgroundResponse(map, background_row);
   const double sharp_variance = SharpVariance(map);
-  map.blur_px = std::sqrt(std::max(sharp_variance - kOwnVariance, kLeastBlur * kLeastBlur));
+  map.blur_px = BlurOf(sharp_variance);
   ForEachPlace(map, 0, [&](int station, int row) {
     const Place place(map, station, row);
     map.clear[map.At(station, row)] =
         static_cast<float>(Clearness(place, map.background_response, sharp_variance));
   });
   return map;
+}
+
+double BlurUnder(const StepMap& map, const std::vector<int>& rows) {
+  std::vector<double> variances;
+  for (int station = 0; station < map.stations; ++station) {
+    const int row = rows[static_cast<size_t>(station)];
+    if (row < kStepMargin || row + kStepMargin >= map.rows) continue;
+    variances.push_back(Place(map, station, row).Variance());
+  }
+  return BlurOf(Median(std::move(variances)));
 }
 
 }  // namespace bladecurve

@@ -38,4 +38,7 @@ inline constexpr int kStepMargin = 5;
                                 const StationLayout& layout,
                                 int background_row);
 
+// Gaussian sigma of the steps under a line, one row a station; px, pixel box apart.
+[[nodiscard]] double BlurUnder(const StepMap& map, const std::vector<int>& rows);
+
 }  // namespace bladecurve

@@ -218,6 +218,20 @@ TEST(LocateEdge, AGlaringBladesEdgeIsFoundOnceTheBlurIsKnown) {
   }
 }
 
+// A bevel's inner border may look sharper than the blade's, which a lens out of focus softens.
+TEST(LocateEdge, TheDeeperFallOfLightIsTheBorderHoweverSoft) {
+  constexpr double kClose = 0.1;  // px
+  Gaussian random(22);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light =
+        Banded(line, [](double d) { return 200 - 60 * Smooth(d + 7, 0.5) - 125 * Smooth(d, 1.4); });
+    const LocatedEdge edge = LocateEdge(
+        testing::Stored(light, 1.5, 2.2, random), testing::GammaCurve(2.2), GuessOf(line, -4, -2));
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, kClose);
+  }
+}
+
 TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
   Gaussian random(17);
   const Line line = RandomLine(random);
