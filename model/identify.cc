@@ -62,6 +62,7 @@ Values MeanValues(const std::vector<IdentifiedCut>& cuts) {
 
 std::vector<const ForceLog*> AllOf(const std::vector<ForceLog>& logs) {
   std::vector<const ForceLog*> all;
+  all.reserve(logs.size());
   for (const ForceLog& log : logs) all.push_back(&log);
   return all;
 }
