@@ -215,7 +215,8 @@ void CompareWithRival(const Survey& survey,
                       const StepLine& line,
                       double search_px,
                       ChosenTransition& chosen) {
-  constexpr double kAsHigh = 0.5;          // of the line's height; lower ones are texture
+  constexpr double kAsHigh = 0.5;          // of the line's height; lower ones within are texture
+  constexpr double kAsHighBeyond = 0.2;    // beyond, a low step may still be a dark bevel's border
   constexpr double kRivalStiffness = 400;  // a guess, not an edge
   const StepLine rival = RivalOf(survey, line, search_px);
   for (int station = 0; station < survey.map.stations; ++station) {
@@ -224,7 +225,9 @@ void CompareWithRival(const Survey& survey,
   }
   chosen.rival = PointsOn(survey, rival, kRivalStiffness);
   const double as_high = std::abs(TypicalHeight(survey.map, rival)) /
-                         std::max(kAsHigh * std::abs(TypicalHeight(survey.map, line)), 1e-6);
+                         std::max((chosen.rival_px > 0 ? kAsHighBeyond : kAsHigh) *
+                                      std::abs(TypicalHeight(survey.map, line)),
+                                  1e-6);
   chosen.ambiguity =
       std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0) * std::min(as_high, 1.0);
 }
