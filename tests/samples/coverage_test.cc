@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// The whole pipeline on a few rendered scenes: are errors small, and are stated uncertainties true?
+// `bladecurve validate --scenes 1000` asks the same of many.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "samples/validation_run.h"
+#include "samples/validation_scene.h"
+#include "samples/validation_table.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr int kScenes = 8;
+constexpr std::uint64_t kSeed = 1;
+constexpr double kTwoSided95 = 1.959964;  // standard normal
+
+const std::vector<ValidationRow>& Rows() {
+  static const std::vector<ValidationRow> rows = [] {
+    std::vector<ValidationRow> measured;
+    for (int number = 0; number < kScenes; ++number) {
+      measured.push_back(ValidateScene(MakeValidationScene(number, kSeed, Difficulty::kStandard),
+                                       std::filesystem::path(testing::TempDir())));
+    }
+    return measured;
+  }();
+  return rows;
+}
+
+double MedianError(Quantity quantity) {
+  std::vector<double> sizes;
+  for (const ValidationRow& row : Rows()) sizes.push_back(row.Of(quantity).size);
+  return Percentile(sizes, 0.5);
+}
+
+TEST(ValidateScene, MeasuresAllScenesThatCanBeMeasured) {
+  for (const ValidationRow& row : Rows()) EXPECT_TRUE(row.measured()) << row.number << row.detail;
+}
+
+// The goals for standard scenes: half of them must do better.
+TEST(ValidateScene, MedianErrorsReachTheGoals) {
+  EXPECT_LE(MedianError(Quantity::kEdge), 0.1);    // px
+  EXPECT_LE(MedianError(Quantity::kPivot), 1.5);   // px
+  EXPECT_LE(MedianError(Quantity::kTheta), 0.05);  // degrees
+  EXPECT_LE(MedianError(Quantity::kScale), 300);   // ppm
+  EXPECT_LE(MedianError(Quantity::kPhi), 0.02);    // mm
+}
+
+// Errors of one scene go together, so a share of so few scattered scenes is rough: where sigmas are
+// half of what they should be it is below 70 %.
+TEST(ValidateScene, MostIntervalsHoldTheTruth) {
+  int held = 0, of = 0;
+  for (const ValidationRow& row : Rows()) {
+    for (const Quantity quantity :
+         {Quantity::kEdge, Quantity::kPivot, Quantity::kTheta, Quantity::kScale, Quantity::kPhi}) {
+      for (const StatedError& stated : row.Of(quantity).stated) {
+        ++of;
+        held += std::abs(stated.error) <= kTwoSided95 * stated.sigma ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(of, 14 * kScenes);
+  EXPECT_GE(held, 0.8 * of) << held << " of " << of;
+}
+
+// Nor are intervals so wide that they always hold it: pivots scatter over them.
+TEST(ValidateScene, IntervalsAreNotMuchTooWide) {
+  std::vector<double> pivot_sigmas;
+  for (const ValidationRow& row : Rows()) {
+    for (const StatedError& stated : row.Of(Quantity::kPivot).stated) {
+      pivot_sigmas.push_back(std::abs(stated.error) / stated.sigma);
+    }
+  }
+  EXPECT_GE(Percentile(pivot_sigmas, 1), 0.8);  // largest of 16
+}
+
+}  // namespace
+}  // namespace bladecurve
