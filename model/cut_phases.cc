@@ -19,7 +19,7 @@ constexpr std::size_t kBins = 800;
 // way is far from noise and from waves of the cut; the others are as far as they may be from it.
 constexpr double kBegun = 0.2, kHalf = 0.5, kDone = 0.8;
 // Rejects logs without a cut: its resistance must be this many times what there is before it.
-constexpr double kClear = 3;
+constexpr double kClear = 2;
 constexpr int kFewestRows = 5;       // of the deformation: for a slope and both its ends
 constexpr double kLine_mm = 1.0;     // a straight line follows the beginning of a cut this far
 constexpr std::size_t kEndBins = 3;  // that must lie beyond the end of a plate: fewer may be noise

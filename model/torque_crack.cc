@@ -186,6 +186,7 @@ void TorqueStep::BookCut(const Waypoint& from, const Waypoint& to) noexcept {
   const double mean_nmm = 0.5 * (from.tip.cut_torque_nmm + to.tip.cut_torque_nmm) +
                           stride / 12 * (torque_rate(from.tip) - torque_rate(to.tip));
   state_.ledger.cut_work_nmm -= mean_nmm * dtheta_rad_ * stride;
+  state_.ledger.cut_turn_rad -= dtheta_rad_ * stride;
   state_.ledger.pivot_advance_mm += dpivot_mm_ * stride;
   state_.ledger.cut_length_mm += to.tip.x_mm - from.tip.x_mm + dpivot_mm_ * stride;
 }

@@ -19,15 +19,13 @@ enum class DeltaPolicy {
 
 enum class Phase : std::uint8_t { kNone, kDeformation, kCutting, kRelaxation, kThrough };
 
-// The bits below these are CurveFlag's.
+// Above CurveFlag's bits.
 enum TorqueFlag : std::uint32_t {
-  kTorqueCannotCut = 1u << 8,  // the edge cannot cut there: torque held at its last valid value
-  kTorqueBeyondBlade =
-      1u << 9,                 // the crack tip lies beyond the end of the blade: torque fades to 0
-  kTorqueBadInput = 1u << 10,  // NaN, Inf or a negative dt came in: last safe output
+  kTorqueCannotCut = 1u << 8,     // the edge cannot cut there: torque held at its last valid value
+  kTorqueBeyondBlade = 1u << 9,   // the crack tip lies beyond the blade's end: torque fades to 0
+  kTorqueBadInput = 1u << 10,     // NaN, Inf or a negative dt came in: last safe output
   kTorqueStepTooLong = 1u << 11,  // dt beyond longest_step_s: last safe output
-  kTorqueSearchShort =
-      1u << 12,  // so much happened in one step that its end was taken in one stride
+  kTorqueSearchShort = 1u << 12,  // too much in one step: its end was taken in one stride
 };
 
 struct TorqueOptions {
@@ -65,14 +63,16 @@ struct TorqueEvent {
 };
 
 // Work audit. For constant delta and a pivot at rest, cut_work = J_c h cut_length exactly (12, 14).
+// The average torque of cutting (17) is cut_work over cut_turn.
 struct CutLedger {
   double cut_work_nmm = 0;      // integral of -tau_c dtheta while the crack grows
+  double cut_turn_rad = 0;      // what the blades closed by meanwhile
   double cut_length_mm = 0;     // what the crack grew by meanwhile
   double pivot_advance_mm = 0;  // what the pivot moved by then: no work against the torque
   double snapped_mm = 0;        // what the crack jumped at once, for want of an equilibrium
 };
 
-// The events of one step. More than fit are left out; the state knows them all the same.
+// The events of one step; more than fit are left out.
 struct EventLog {
   std::array<TorqueEvent, 16> events;
   std::size_t count = 0;

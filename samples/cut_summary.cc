@@ -100,6 +100,11 @@ std::string AuditLines(const CutRun& run) {
   if (expected_nmm != 0)
     lines += fmt::format(" (difference {:.2g})", ledger.cut_work_nmm / expected_nmm - 1);
   lines += "\n";
+  if (ledger.cut_turn_rad > 0) {
+    lines += fmt::format("  average torque  {} N mm of cutting, over {:.4g} deg\n",
+                         NumberText(ledger.cut_work_nmm / ledger.cut_turn_rad),
+                         ledger.cut_turn_rad * kDegPerRad);
+  }
   if (ledger.pivot_advance_mm != 0) {
     lines += fmt::format("                  and {:.6g} mm were cut by moving the pivot\n",
                          ledger.pivot_advance_mm);

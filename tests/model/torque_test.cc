@@ -156,6 +156,25 @@ TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
   }
 }
 
+TEST(TorqueModel, KeepsTheAverageTorqueOfCutting) {
+  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kSpan);
+  double sum_nmm = 0, turn_rad = 0;
+  TorqueSample last;
+  constexpr int kSteps = 20000;
+  for (const Pose& pose : StraightMotion(30, 10, kSteps)) {
+    const TorqueSample sample = model.Step(pose.theta_rad, 0, 1e-3);
+    if (sample.phase == Phase::kCutting && last.phase == Phase::kCutting) {
+      sum_nmm += 0.5 * (sample.torque_nmm + last.torque_nmm);
+      turn_rad += 20 * kRad / kSteps;
+    }
+    last = sample;
+  }
+  constexpr double kOneStep = 1e-4;  // the cut starts within one
+  EXPECT_NEAR(model.ledger().cut_turn_rad / turn_rad, 1, kOneStep);
+  const double average_nmm = model.ledger().cut_work_nmm / model.ledger().cut_turn_rad;
+  EXPECT_NEAR(average_nmm * turn_rad / (sum_nmm * 20 * kRad / kSteps), 1, kOneStep);
+}
+
 TEST(TorqueModel, SlicesWithConstantTorqueAndForceAtAConstantAngle) {
   TorqueModel model(SmallMetzenbaum(), PaperMaterials()[1], kSpan);
   TorqueSample first;
