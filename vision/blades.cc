@@ -119,6 +119,16 @@ double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& 
   return longest;
 }
 
+// Without its first part, where a shadow or the coarseness of the mask may fill the crotch.
+std::vector<Vector2d> ClearOfCrotch(const std::vector<Vector2d>& inner) {
+  constexpr double kFilledShare = 0.15;
+  const double reach = kFilledShare * (inner.back() - inner.front()).norm();
+  const auto clear = std::find_if(inner.begin(), inner.end(), [&](const Vector2d& p) {
+    return (p - inner.front()).norm() > reach;
+  });
+  return {clear, inner.end()};
+}
+
 // Sag and roughness of a polyline about the parabola through it, relative to its chord.
 void DescribeSide(const std::vector<Vector2d>& side, BladeContour* blade) {
   const Vector2d origin = side.front();
@@ -165,7 +175,7 @@ BladeContour DescribeBlade(const Silhouette& silhouette,
   blade.tip = inner.back();
   const Vector2d crotch = inner.front();
   blade.length = (blade.tip - crotch).norm();
-  DescribeSide(inner, &blade);
+  DescribeSide(ClearOfCrotch(inner), &blade);
   blade.width = WidthAcross(silhouette.filled, crotch, blade.tip, 0.5);
   const double near_tip = std::max(WidthAcross(silhouette.filled, crotch, blade.tip, 0.88),
                                    WidthAcross(silhouette.filled, crotch, blade.tip, 0.95));

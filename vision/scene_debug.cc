@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scene_debug.h"
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace bladecurve {
@@ -35,7 +36,45 @@ void DrawPath(const std::vector<Eigen::Vector2d>& path,
   cv::polylines(*picture, points, false, colour, 1, cv::LINE_AA);
 }
 
+// Distances up to `kMost` as grey values, the logarithm so that faint blades show.
+cv::Mat ViewableDistance(const cv::Mat& distance) {
+  if (distance.type() == CV_8UC1) return distance / 2;
+  constexpr double kMost = 128;
+  cv::Mat logarithm;
+  cv::log(distance + 1, logarithm);
+  cv::Mat grey;
+  logarithm.convertTo(grey, CV_8UC1, 200 / std::log(1 + kMost));
+  return grey;
+}
+
 }  // namespace
+
+cv::Mat DrawRung(const cv::Mat& distance, const std::vector<Candidate>& candidates) {
+  cv::Mat picture;
+  cv::cvtColor(ViewableDistance(distance), picture, cv::COLOR_GRAY2BGR);
+  cv::resize(picture, picture, {}, kZoom, kZoom, cv::INTER_NEAREST);
+  int line = 0;
+  for (const Candidate& c : candidates) {
+    const double bright = 60 + 195 * c.pair.quality;
+    DrawPath(c.pair.first.inner, nullptr, {0, 0, bright}, &picture);
+    DrawPath(c.pair.second.inner, nullptr, {0, bright, 0}, &picture);
+    cv::circle(picture, At(c.pair.pivot), 3, {0, bright, bright}, 1, cv::LINE_AA);
+    const std::string label = "threshold " + std::to_string(c.threshold).substr(0, 4) +
+                              " quality " + std::to_string(c.pair.quality).substr(0, 4) +
+                              " strength " + std::to_string(c.strength).substr(0, 4) +
+                              " sharpness " + std::to_string(c.sharpness).substr(0, 4) + " " +
+                              c.pair.doubt;
+    cv::putText(picture,
+                label,
+                {10, 20 * ++line},
+                cv::FONT_HERSHEY_SIMPLEX,
+                0.5,
+                {bright, bright, bright},
+                1,
+                cv::LINE_AA);
+  }
+  return picture;
+}
 
 cv::Mat DrawScene(const Candidate& found, const Scene& scene) {
   cv::Mat picture;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "vision/scene_ladder.h"
 
@@ -11,5 +12,10 @@ namespace bladecurve {
 // The small picture beside the mask, with the contour's named parts: inner edges, tips, crotches,
 // pivot. CV_8UC3.
 [[nodiscard]] cv::Mat DrawScene(const Candidate& found, const Scene& scene);
+
+// What a rung of the ladder saw: the distance from the background (CV_32FC1, brightness its
+// logarithm) or a mask (CV_8UC1), with the inner edges and the pivot of every candidate, the better
+// the brighter. CV_8UC3.
+[[nodiscard]] cv::Mat DrawRung(const cv::Mat& distance, const std::vector<Candidate>& candidates);
 
 }  // namespace bladecurve

@@ -7,7 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "vision/flood.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
+#include "vision/scene_debug.h"
 #include "vision/silhouette.h"
 
 namespace bladecurve {
@@ -17,7 +20,8 @@ using Eigen::Vector2d;
 
 constexpr int kSmallSide =
     640;  // blades of a sixth of the picture keep 100 px; more costs time, finds no more
-constexpr int kGrabCutSide = 480;   // its time grows with the area
+constexpr int kFloodSide = 960;  // walls are pixels thick: gaps between blades need more of them
+constexpr double kMostEnlarged = 2;  // the same for pictures that are smaller than that
 constexpr int kSmallestSide = 120;  // no blade of such a picture has an edge that could be measured
 // In units of the background's scatter. Below 2 it is all background, above 64 nothing is left of
 // most blades.
@@ -39,7 +43,7 @@ Window WholeOrRoi(const Photo& photo, const StoredHints& hints) {
 
 cv::Size SmallSize(const Window& window, int longest) {
   const double side = std::max(window.area_px.width, window.area_px.height);
-  const double k = std::min(1.0, longest / side);
+  const double k = std::min(kMostEnlarged, longest / side);
   return {std::max(1, static_cast<int>(std::lround(window.area_px.width * k))),
           std::max(1, static_cast<int>(std::lround(window.area_px.height * k)))};
 }
@@ -49,16 +53,18 @@ Window LocalWindow(const Window& window) {
   return {cv::Rect2d(0, 0, window.area_px.width, window.area_px.height), window.full_size};
 }
 
+cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
+  cv::Mat resized;
+  const bool enlarges = size.width > image.cols;
+  cv::resize(image, resized, size, 0, 0, enlarges ? cv::INTER_CUBIC : cv::INTER_AREA);
+  return resized;
+}
+
 ScaledImage SmallGrey(const Setting& setting) {
   ScaledImage small;
   small.window = setting.window;
-  cv::Mat reduced;
-  cv::resize(setting.photo.grey()(cv::Rect(setting.window.area_px)),
-             reduced,
-             SmallSize(setting.window, kSmallSide),
-             0,
-             0,
-             cv::INTER_AREA);
+  const cv::Mat reduced = Resized(setting.photo.grey()(cv::Rect(setting.window.area_px)),
+                                  SmallSize(setting.window, kSmallSide));
   reduced.convertTo(small.pixels, CV_32FC1, 100.0 / 255);
   return small;
 }
@@ -74,14 +80,8 @@ cv::Mat SmallColour(const Setting& setting, int longest) {
                         setting.window.area_px.y * k,
                         setting.window.area_px.width * k,
                         setting.window.area_px.height * k);
-  cv::Mat reduced;
-  cv::resize(colour(cv::Rect(area) & cv::Rect({0, 0}, colour.size())),
-             reduced,
-             SmallSize(setting.window, longest),
-             0,
-             0,
-             cv::INTER_AREA);
-  return reduced;
+  return Resized(colour(cv::Rect(area) & cv::Rect({0, 0}, colour.size())),
+                 SmallSize(setting.window, longest));
 }
 
 // Non-zero on the printed markers and their white margins, which are not scissors.
@@ -104,8 +104,8 @@ cv::Mat MarkerMask(const Setting& setting, const ScaledImage& at) {
   return mask;
 }
 
-// Median transition across one path, in the units of the image.
-double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path) {
+// Median difference between `reach` px outside and inside of a path, in the units of the image.
+double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path, double reach) {
   std::vector<double> steps;
   const auto value = [&](const Vector2d& p, int c) {
     const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
@@ -114,23 +114,43 @@ double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path)
   };
   for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
     const Vector2d along = (path[i + 3] - path[i - 3]).normalized();
-    const Vector2d across(1.5 * along.y(), -1.5 * along.x());
+    const Vector2d across(reach * along.y(), -reach * along.x());
     double squared = 0;
     for (int c = 0; c < image.channels(); ++c) {
       squared += std::pow(value(path[i] + across, c) - value(path[i] - across, c), 2);
     }
     steps.push_back(std::sqrt(squared));
   }
-  if (steps.empty()) return 0;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return steps.empty() ? 0 : Median(steps);
 }
+
+constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp border's transition
+constexpr double kSoftReach = 5;     // most of a soft shadow's
 
 // Of the two inner edges the weaker: a shadow that passes for a blade has a soft border.
 double EdgeStrength(const cv::Mat& image, const BladePair& pair) {
-  return std::min(TransitionAcross(image, pair.first.inner),
-                  TransitionAcross(image, pair.second.inner));
+  return std::min(TransitionAcross(image, pair.first.inner, kSharpReach),
+                  TransitionAcross(image, pair.second.inner, kSharpReach));
+}
+
+// Share of the transition that a sharp border would have there, of the softer inner edge.
+double EdgeSharpness(const cv::Mat& image, const BladePair& pair) {
+  const auto sharpness = [&](const std::vector<Vector2d>& path) {
+    return TransitionAcross(image, path, kSharpReach) /
+           std::max(1e-6, TransitionAcross(image, path, kSoftReach));
+  };
+  return std::min(sharpness(pair.first.inner), sharpness(pair.second.inner));
+}
+
+// Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
+void DoubtSoftEdges(Candidate* candidate) {
+  constexpr double kSoft = 0.25;
+  constexpr double kSharp = 0.4;
+  const double grade = std::clamp((candidate->sharpness - kSoft) / (kSharp - kSoft), 0.0, 1.0);
+  candidate->pair.quality *= grade;
+  if (grade >= candidate->pair.worst_grade) return;
+  candidate->pair.worst_grade = grade;
+  candidate->pair.doubt = "an edge is soft like a shadow's";
 }
 
 bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
@@ -170,11 +190,22 @@ void CollectFrom(const cv::Mat& mask,
       if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
       Candidate candidate = like;
       candidate.strength = EdgeStrength(like.at->pixels, pair);
+      candidate.sharpness = EdgeSharpness(like.at->pixels, pair);
       candidate.pair = std::move(pair);
+      DoubtSoftEdges(&candidate);
       candidate.mask = mask;
       candidates->push_back(std::move(candidate));
       break;  // the best pair of each thing
     }
+  }
+}
+
+void CountAgreeing(std::vector<Candidate>* candidates) {
+  for (Candidate& a : *candidates) {
+    a.agreeing = static_cast<int>(
+        std::count_if(candidates->begin(), candidates->end(), [&](const Candidate& b) {
+          return SameBlades(a, b);
+        }));
   }
 }
 
@@ -193,12 +224,7 @@ std::vector<Candidate> ThresholdAll(const cv::Mat& distance,
     at_threshold.threshold = threshold;
     CollectFrom(MaskAbove(smooth, threshold), at_threshold, hidden, hints, &candidates);
   }
-  for (Candidate& a : candidates) {
-    a.agreeing = static_cast<int>(
-        std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& b) {
-          return SameBlades(a, b);
-        }));
-  }
+  CountAgreeing(&candidates);
   return candidates;
 }
 
@@ -233,17 +259,26 @@ LadderResult Choose(const std::vector<Candidate>& candidates) {
   return result;
 }
 
+// Several thresholds must agree; fewer where the outline is as sharp as the lens allows.
 bool Consistent(const LadderResult& result) {
-  return result.best.pair.quality >= 0.9 && result.best.agreeing >= 3;
+  constexpr double kSurelySharp = 0.8;
+  const int enough = result.best.sharpness >= kSurelySharp ? 2 : 3;
+  return result.best.pair.quality >= 0.9 && result.best.agreeing >= enough;
 }
 
-std::vector<Candidate> GreyRung(const Setting& setting) {
+// What one rung of the ladder saw.
+struct Rung {
+  std::vector<Candidate> candidates;
+  cv::Mat distance;  // from the background, or the mask where there is no distance
+};
+
+Rung GreyRung(const Setting& setting) {
   const auto at = std::make_shared<ScaledImage>(SmallGrey(setting));
   const cv::Mat ignore = MarkerMask(setting, *at);
   const BackgroundModel background = FitBackground(at->pixels, ignore);
   cv::Mat distance = DistanceFromBackground(at->pixels, background, LocalWindow(setting.window));
   if (!ignore.empty()) distance.setTo(0, ignore);
-  return ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, setting.hints);
+  return {ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, setting.hints), distance};
 }
 
 struct ColourPictures {
@@ -271,57 +306,65 @@ cv::Mat LabDistance(const Setting& setting, const ColourPictures& colour) {
   return distance;
 }
 
-std::vector<Candidate> ColourRung(const Setting& setting, const ColourPictures& colour) {
-  return ThresholdAll(LabDistance(setting, colour),
-                      colour.ignore,
-                      Candidate{{}, colour.lab, {}, "colour"},
-                      setting.hints);
+Rung ColourRung(const Setting& setting, const ColourPictures& colour) {
+  const cv::Mat distance = LabDistance(setting, colour);
+  return {
+      ThresholdAll(distance, colour.ignore, Candidate{{}, colour.lab, {}, "colour"}, setting.hints),
+      distance};
 }
 
-std::vector<Candidate> ShadowBlindRung(const Setting& setting, const ColourPictures& colour) {
+Rung ShadowBlindRung(const Setting& setting, const ColourPictures& colour) {
   cv::Mat light;
   colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
   const BackgroundModel background = FitBackground(light, colour.ignore);
   cv::Mat distance = DistanceFromShadedBackground(light, background, LocalWindow(setting.window));
   if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
-  return ThresholdAll(
-      distance, colour.ignore, Candidate{{}, colour.lab, {}, "shadow-blind"}, setting.hints);
+  return {
+      ThresholdAll(
+          distance, colour.ignore, Candidate{{}, colour.lab, {}, "shadow-blind"}, setting.hints),
+      distance};
 }
 
-std::vector<Candidate> GrabCutRung(const Setting& setting) {
-  constexpr double kSurelyBackground = 3;
-  constexpr double kMaybeScissors = 10;
-  constexpr int kRounds = 4;
-  const ColourPictures colour = MakeColour(setting, kGrabCutSide);
-  cv::Mat distance;
-  cv::GaussianBlur(LabDistance(setting, colour), distance, {}, 1.0);
-  cv::Mat labels(distance.size(), CV_8UC1, cv::Scalar(cv::GC_BGD));
-  labels.setTo(cv::GC_PR_BGD, distance > kSurelyBackground);
-  labels.setTo(cv::GC_PR_FGD, distance > kMaybeScissors);
-  if (cv::countNonZero(labels == cv::GC_PR_FGD) < 100) return {};
-  cv::Mat background_model;
-  cv::Mat foreground_model;
-  cv::setRNGSeed(0);  // its clusters start at random: the same picture must give the same bits
-  cv::grabCut(
-      colour.bgr, labels, {}, background_model, foreground_model, kRounds, cv::GC_INIT_WITH_MASK);
-  cv::Mat mask = (labels == cv::GC_FGD) | (labels == cv::GC_PR_FGD);
-  std::vector<Candidate> candidates;
-  for (int open = 0; open <= 1; ++open) {
-    cv::Mat cleaned;
-    const cv::Mat disc = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3 + 2 * open, 3 + 2 * open});
-    cv::morphologyEx(mask, cleaned, cv::MORPH_OPEN, disc);
-    CollectFrom(cleaned,
-                Candidate{{}, colour.lab, {}, "grabcut"},
-                colour.ignore,
-                setting.hints,
-                &candidates);
+// What stays dry up to a level, without the specks of grain that cling to it. Walls are thicker
+// than what they enclose by half of what was closed, so that much may go.
+cv::Mat DryMask(const cv::Mat& levels, double level, int closed_px) {
+  cv::Mat mask = levels > level;
+  cv::morphologyEx(mask,
+                   mask,
+                   cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
+  cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  return mask;
+}
+
+Rung FloodRung(const Setting& setting) {
+  // In units of the usual gradient. Below, the ground is dry too; above, most metal is wet.
+  constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
+  const ColourPictures colour = MakeColour(setting, kFloodSide);
+  const cv::Mat distance = LabDistance(setting, colour);
+  Rung rung;
+  for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
+    rung.distance = FloodLevels(colour.lab->pixels, distance, colour.ignore, closed_px);
+    for (const double level : kLevels) {
+      CollectFrom(DryMask(rung.distance, level, closed_px),
+                  {{}, colour.lab, {}, "flood", level},
+                  colour.ignore,
+                  setting.hints,
+                  &rung.candidates);
+    }
   }
-  for (Candidate& c : candidates) c.agreeing = 1;
-  return candidates;
+  CountAgreeing(&rung.candidates);
+  return rung;
 }
 
-void Append(std::vector<Candidate> more, std::vector<Candidate>* all) {
-  std::move(more.begin(), more.end(), std::back_inserter(*all));
+// Adds what a rung saw to what is known, and draws it where pictures are wanted.
+LadderResult Consider(Rung rung,
+                      const std::string& name,
+                      std::vector<Candidate>* all,
+                      StageLog* log) {
+  if (log->wants_pictures()) log->Picture(name, DrawRung(rung.distance, rung.candidates));
+  std::move(rung.candidates.begin(), rung.candidates.end(), std::back_inserter(*all));
+  return Choose(*all);
 }
 
 }  // namespace
@@ -336,25 +379,23 @@ LadderResult ClimbLadder(const Photo& photo,
                   "scene: the picture is less than " + std::to_string(kSmallestSide) +
                       " px high or wide; use a larger photograph");
   }
-  std::vector<Candidate> all = GreyRung(setting);
-  LadderResult result = Choose(all);
+  std::vector<Candidate> all;
+  LadderResult result = Consider(GreyRung(setting), "rung-grey", &all, log);
   log->Ran("scene-grey", "the cheapest look");
   if (Consistent(result)) {
     log->Skipped("scene-colour", "grey gave a consistent scene");
     return result;
   }
   const ColourPictures colour = MakeColour(setting, kSmallSide);
-  Append(ColourRung(setting, colour), &all);
-  Append(ShadowBlindRung(setting, colour), &all);
-  result = Choose(all);
+  Consider(ColourRung(setting, colour), "rung-colour", &all, log);
+  result = Consider(ShadowBlindRung(setting, colour), "rung-shadow-blind", &all, log);
   log->Ran("scene-colour", "grey did not separate the blades");
   if (Consistent(result)) {
-    log->Skipped("scene-grabcut", "colour gave a consistent scene");
+    log->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
-  Append(GrabCutRung(setting), &all);
-  result = Choose(all);
-  log->Ran("scene-grabcut", "no threshold separates the blades");
+  result = Consider(FloodRung(setting), "rung-flood", &all, log);
+  log->Ran("scene-flood", "no threshold separates the blades");
   return result;
 }
 

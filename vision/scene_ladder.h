@@ -35,10 +35,11 @@ struct Candidate {
   BladePair pair;
   std::shared_ptr<const ScaledImage> at;
   cv::Mat mask;
-  std::string method;  // "grey", "colour", "shadow-blind", "grabcut"
+  std::string method;  // "grey", "colour", "shadow-blind", "flood"
   double threshold = 0;
   double strength =
       0;  // mean transition across the inner edges: the right threshold has the strongest
+  double sharpness = 0;  // of the softer inner edge: 1 for a step, 0.3 for a soft shadow
   int agreeing = 0;  // thresholds of the same rung that found the same blades
 };
 
