@@ -17,7 +17,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kEnough = 700;  // samples; of longer edges every second or third tells as much
+constexpr int kEnough = 400;  // samples; of longer edges every second or third tells as much
 constexpr int kStretch = 4;   // samples whose pixels are kept together
 constexpr double kFirstShare =
     0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
