@@ -127,7 +127,7 @@ class BladeLocator {
     const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px);
     if (band == DarkBand::kUnknown) return edge;
     const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
-    constexpr double kReach = 0.45, kLeast = 3;  // of the way to the other side, px
+    constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
     EdgeGuess settled = guess;
     settled.path_px = want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px;
     settled.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
