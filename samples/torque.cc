@@ -23,6 +23,7 @@
 #include "samples/output_files.h"
 #include "samples/torque_plot.h"
 #include "samples/torque_realtime.h"
+#include "vision/png_writer.h"
 
 namespace bladecurve {
 namespace {
@@ -119,6 +120,14 @@ void Deliver(const std::string& file, const std::string& text) {
   }
 }
 
+void Plot(const std::string& file, const CutRun& run, const std::string& title) {
+  if (file.ends_with(".png")) {
+    WritePng(file, TorquePlotBitmap(run, title));
+  } else {
+    Deliver(file, TorquePlotSvg(run, title));
+  }
+}
+
 // Drives the model in real time and gives the motion that the simulated hand made of the wanted
 // one.
 std::vector<MotionSample> MotionInRealTime(const TorqueCommand& command,
@@ -146,10 +155,9 @@ std::vector<MotionSample> MotionInRealTime(const TorqueCommand& command,
 
 void RequirePossible(const TorqueCommand& command) {
   if (command.radius_mm) RequirePositive("--radius-mm", *command.radius_mm);
-  if (!command.plot.empty() && !command.plot.ends_with(".svg")) {
-    throw std::invalid_argument(
-        "--plot: pictures are SVG here; give a name that ends in .svg, not " + command.plot);
-  }
+  const std::string& plot = command.plot;
+  if (!plot.empty() && !plot.ends_with(".svg") && !plot.ends_with(".png"))
+    throw std::invalid_argument("--plot: give a name that ends in .svg or .png, not " + plot);
   if (!command.is_real_time) return;
   RequirePositive("--damping-n-s-per-m", command.damping_n_s_per_m);
   if (command.seconds != 0) RequirePositive("--seconds", command.seconds);
@@ -175,7 +183,7 @@ void RunTorque(const TorqueCommand& command) {
   const CutRun run = RunCut(model, motion, radius_mm, friction);
   if (!command.quiet) std::cerr << CutSummary(run);
   Deliver(command.csv, CutCsv(run));
-  Deliver(command.plot, TorquePlotSvg(run, blade.name + " through " + material.name));
+  Plot(command.plot, run, blade.name + " through " + material.name);
 }
 
 void AddPlateFlags(CLI::App& sub, TorqueCommand& command) {
@@ -265,7 +273,8 @@ void AddRealTimeFlags(CLI::App& sub, TorqueCommand& command) {
 void AddOutputFlags(CLI::App& sub, TorqueCommand& command) {
   constexpr const char* kGroup = "Output";
   sub.add_option("--csv", command.csv, "the curve as CSV; - for standard output")->group(kGroup);
-  sub.add_option("--plot", command.plot, "the curve as a picture, FILE.svg")->group(kGroup);
+  sub.add_option("--plot", command.plot, "the curve as a picture, FILE.svg or FILE.png")
+      ->group(kGroup);
   sub.add_flag("--quiet", command.quiet, "no summary")->group(kGroup);
 }
 

@@ -165,6 +165,13 @@ TEST_F(TorqueCommand, FrictionHoldsTheHandBackInRealTime) {
   EXPECT_NEAR((held_deg - free_deg) * kRad, 4 / 0.5 / 98, 0.5 * kRad);
 }
 
+TEST_F(TorqueCommand, PlotsAsPng) {
+  ASSERT_EQ(Run(std::string(kCut) + " --quiet --plot cut.png").exit_code, 0);
+  const std::string png = ReadText(folder_ / "cut.png");
+  EXPECT_TRUE(png.starts_with("\x89PNG\r\n"));
+  EXPECT_GT(png.size(), 10000u);
+}
+
 TEST_F(TorqueCommand, PlotsAsSvg) {
   ASSERT_EQ(Run(std::string(kCut) + " --quiet --plot cut.svg").exit_code, 0);
   const std::string svg = ReadText(folder_ / "cut.svg");
@@ -199,7 +206,7 @@ TEST_F(TorqueCommand, WrongUseIsSaidOnOneLine) {
       {cut + "--close-deg 28:4 --x-edge-mm 60 --x-end-mm 50", "x_end"},
       {cut + "--close-deg 28:4 --rupture-mm -1", "rupture"},
       {cut + "--close-deg 28:4 --rupture-mm 1 --rupture-spread 2", "spread"},
-      {cut + "--close-deg 28:4 --plot cut.png", "--plot"},
+      {cut + "--close-deg 28:4 --plot cut.gif", "--plot"},
       {cut + "--close-deg 28:4 --realtime", "--radius-mm"},
       {cut + "--motion order.csv --radius-mm 98 --realtime", "--close-deg"},
       {cut + "--close-deg 28:4 --radius-mm 98 --realtime --seconds -1", "--seconds"},
