@@ -30,6 +30,14 @@ PlaceOfDifference LargestAt(const BladeCurve& a, const BladeCurve& b, double the
   return largest;
 }
 
+// |tau_a / tau_b - 1|; nothing where one of the edges does not cross the axis.
+std::optional<double> TorqueRatioAt(const BladeCurve& a, const BladeCurve& b, double theta_rad) {
+  const std::optional<double> torque_a = ThinPlateTorque(a, theta_rad);
+  const std::optional<double> torque_b = ThinPlateTorque(b, theta_rad);
+  if (!torque_a || !torque_b) return std::nullopt;
+  return std::abs(*torque_a / *torque_b - 1);
+}
+
 }  // namespace
 
 // phi_theta/phi_x at the crack tip of a thin plate: the last place where the edge crosses the axis
@@ -46,7 +54,9 @@ std::optional<double> ThinPlateTorque(const BladeCurve& curve, double theta_rad)
   return std::nullopt;
 }
 
-FamilyDifference CompareFamilies(const BladeCurve& a, const BladeCurve& b) {
+FamilyDifference CompareFamilies(const BladeCurve& a,
+                                 const BladeCurve& b,
+                                 const std::vector<double>& photographed_rad) {
   FamilyDifference difference;
   const CurveDomain& domain = a.domain();
   bool closing_found = false;
@@ -58,19 +68,22 @@ FamilyDifference CompareFamilies(const BladeCurve& a, const BladeCurve& b) {
       difference.at_x_mm = place.x_mm;
       difference.at_theta_rad = theta;
     }
-    const std::optional<double> torque_a = ThinPlateTorque(a, theta);
-    const std::optional<double> torque_b = ThinPlateTorque(b, theta);
-    if (!torque_a || !torque_b) continue;
-    const double torque = std::abs(*torque_a / *torque_b - 1);
+    const std::optional<double> torque = TorqueRatioAt(a, b, theta);
+    if (!torque) continue;
     if (!closing_found) {
       difference.near_closing_mm = place.mm;
-      difference.near_closing_torque = torque;
+      difference.near_closing_torque = *torque;
       difference.near_closing_theta_rad = theta;
       closing_found = true;
     }
-    if (torque <= difference.largest_torque) continue;
-    difference.largest_torque = torque;
+    if (*torque <= difference.largest_torque) continue;
+    difference.largest_torque = *torque;
     difference.torque_at_theta_rad = theta;
+  }
+  for (const double theta : photographed_rad) {
+    difference.photographed_mm = std::max(difference.photographed_mm, LargestAt(a, b, theta).mm);
+    const std::optional<double> torque = TorqueRatioAt(a, b, theta);
+    if (torque) difference.photographed_torque = std::fmax(difference.photographed_torque, *torque);
   }
   return difference;
 }

@@ -252,15 +252,15 @@ FamilyFit FitTapered(const FamilyInput& input, const std::optional<double>& gain
   JointModel model{std::nullopt, !gain, Loss::kNone, input.mirror};
   FamilyFit fit;
   const JointState start = TaperedStart(input.data, gain.value_or(0.5));
-  std::vector<std::string> names = {"a_mm", "b"};
+  fit.parameter_names = {"a_mm", "b"};
   if (model.free_gain) {
     const JointEstimate joint = EstimateJointly(input.data, model, start);
-    names.emplace_back("gain");
+    fit.parameter_names.emplace_back("gain");
     if (!joint.estimate.undetermined.empty()) {
-      RecordEstimate(joint, JointNames(names, input.data, joint), fit);
+      RecordEstimate(joint, JointNames(fit.parameter_names, input.data, joint), fit);
       fit.limits.emplace_back("gain: held at 1/2, photographs at one angle do not determine it");
       model.free_gain = false;
-      names.pop_back();
+      fit.parameter_names.pop_back();
     }
   }
   const Attempt attempt = SolveHonestly(input, model, start, fit);
@@ -274,10 +274,24 @@ FamilyFit FitTapered(const FamilyInput& input, const std::optional<double>& gain
   fit.covariance = unit.asDiagonal() *
                    joint.estimate.covariance.topLeftCorner(unit.size(), unit.size()) *
                    unit.asDiagonal();
-  fit.parameter_names = names;
-  Record(input, model, attempt, joint, names, fit);
+  Record(input, model, attempt, joint, fit.parameter_names, fit);
   fit.influence = InfluenceOf(attempt.data, model, state, attempt.residuals);
   return fit;
+}
+
+GainFinding FindGain(const FamilyInput& input) {
+  const JointModel model{std::nullopt, true, Loss::kNone, input.mirror};
+  FamilyFit fit;
+  const Attempt attempt = SolveHonestly(input, model, TaperedStart(input.data, 0.5), fit);
+  const JointEstimate joint = EstimateJointly(attempt.data, model, attempt.result.state);
+  GainFinding finding;
+  if (!joint.estimate.undetermined.empty()) return finding;
+  const auto parameters = static_cast<size_t>(joint.estimate.covariance.cols());
+  constexpr Eigen::Index kGain = 2;  // after a and b
+  finding.gain = attempt.result.state.gain;
+  finding.sigma = std::sqrt(joint.estimate.covariance(kGain, kGain));
+  finding.chi2_per_freedom = fit.chi2 / std::max(Freedom(input.data, model, parameters), 1.0);
+  return finding;
 }
 
 }  // namespace bladecurve

@@ -25,4 +25,7 @@ struct FamilyInput {
 // and listed in `undetermined`.
 [[nodiscard]] FamilyFit FitTapered(const FamilyInput& input, const std::optional<double>& gain);
 
+// The gain that photographs at several angles have themselves; not set if they do not determine it.
+[[nodiscard]] GainFinding FindGain(const FamilyInput& input);
+
 }  // namespace bladecurve

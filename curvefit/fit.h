@@ -83,7 +83,10 @@ struct BladeFit {
   std::vector<KnotCandidate> knots_tried;
   std::vector<RejectedPoint> rejected;
   std::vector<EdgeFinding> edges;
-  std::vector<std::string> warnings;  // stable codes: "photographs_disagree", "families_part", ...
+  // Stable codes. Warnings are doubts about this result: "photographs_disagree", "families_part"
+  // (the families differ at the photographed angles, and these do not decide between them), ...
+  // Notes are not: "families_part" (only at other angles, where a family is an assumption).
+  std::vector<std::string> warnings, notes;
 };
 
 // Fits one blade to all photographs together: shared shape; pivot, axis, theta of each. Orthogonal

@@ -60,7 +60,7 @@ struct UndeterminedDirection {
 // have missed has room there.
 struct FinerCurve {
   RigidSpline curve;
-  Eigen::MatrixXd covariance;  // of its coefficients, mm^2
+  Eigen::MatrixXd covariance;         // of its coefficients, mm^2
   double effective_coefficients = 0;  // that the points determine, knots left open
 };
 
@@ -88,6 +88,9 @@ struct FamilyDifference {
   double near_closing_mm =
       0;  // at the smallest angle of the domain at which both edges cross the axis
   double near_closing_torque = 0, near_closing_theta_rad = 0;
+  // The largest at the photographs' angles; torque NaN where an edge crosses the axis at none of
+  // them.
+  double photographed_mm = 0, photographed_torque = kNotSet;
 };
 
 }  // namespace bladecurve

@@ -45,18 +45,6 @@ bool TaperedPreferred(const FitOptions& options,
   return tapered_explains;
 }
 
-// The gain that the photographs themselves have, whichever was asked for.
-GainFinding FindGain(const FamilyInput& input, const FamilyFit& spline) {
-  GainFinding finding;
-  if (AngleSpread(spline.poses) < kSeveralAngles) return finding;
-  const FamilyFit fit = FitTapered(input, std::nullopt);
-  if (fit.parameter_names.size() < 3) return finding;
-  finding.gain = std::get<TaperedRectangle>(fit.curve.shape()).gain;
-  finding.sigma = std::sqrt(fit.covariance(2, 2));
-  finding.chi2_per_freedom = fit.chi2 / std::max(fit.freedom, 1.0);
-  return finding;
-}
-
 // One shape does not explain all photographs, or their pivots, ends and angles contradict each
 // other.
 bool PhotographsDisagree(const FamilyInput& input, const FamilyFit& fit) {
@@ -77,12 +65,35 @@ bool GivenThetaApart(const FitData& data) {
       zeros.begin(), zeros.end(), [](double zero) { return std::abs(zero) > kGivenApart; });
 }
 
-void Warn(const FamilyInput& input, const FamilyFit& recommended, BladeFit& report) {
+// The families part, at angles of the photographs, and these do not say clearly which is right:
+// what is recommended, or asked for, is then one of two answers.
+bool FamilyInDoubt(const FamilyDifference& difference,
+                   const FamilyFit& recommended,
+                   const FamilyFit& other) {
+  if (AngleSpread(recommended.poses) < kSeveralAngles) return false;  // nothing to decide by
+  constexpr double kClearly = 10;  // "very strong" evidence (Kass and Raftery 1995)
+  if (other.bic - recommended.bic >= kClearly) return false;
+  constexpr double kPart = 0.01;  // of the blade's length: as far as blades of a pair may differ
+  return difference.photographed_torque > kTorquePart ||
+         difference.photographed_mm > kPart * recommended.curve.domain().x_max_mm;
+}
+
+void Warn(const FamilyInput& input, const FamilyFit& other, BladeFit& report) {
   const auto warn = [&](const char* code) { report.warnings.emplace_back(code); };
-  if (PhotographsDisagree(input, recommended)) warn("photographs_disagree");
-  if (report.largest_difference_torque > kTorquePart) warn("families_part");
+  if (PhotographsDisagree(input, report.recommended)) warn("photographs_disagree");
+  if (FamilyInDoubt(report.difference, report.recommended, other)) {
+    warn("families_part");
+  } else if (report.difference.largest_torque > kTorquePart) {
+    report.notes.emplace_back("families_part");
+  }
   if (GivenThetaApart(input.data)) warn("theta_given_differs");
-  if (!recommended.converged) warn("not_converged");
+  if (!report.recommended.converged) warn("not_converged");
+}
+
+std::vector<double> AnglesOf(const FamilyFit& fit) {
+  std::vector<double> angles;
+  for (const FittedPose& pose : fit.poses) angles.push_back(pose.theta_rad);
+  return angles;
 }
 
 }  // namespace
@@ -93,14 +104,16 @@ void Recommend(const FamilyInput& input,
                FamilyFit tapered,
                BladeFit& report) {
   const bool take_tapered = TaperedPreferred(options, spline, tapered, report.why_recommended);
-  report.difference = CompareFamilies(tapered.curve, spline.curve);
-  report.largest_difference_mm = report.difference.largest_mm;
-  report.largest_difference_torque = report.difference.largest_torque;
-  report.gain = FindGain(input, spline);
-  Warn(input, take_tapered ? tapered : spline, report);
   report.recommended = take_tapered ? tapered : spline;
   report.alternatives = {take_tapered ? std::move(spline) : std::move(tapered)};
   report.poses = report.recommended.poses;
+  const FamilyFit& other = report.alternatives[0];
+  report.difference =
+      CompareFamilies(report.recommended.curve, other.curve, AnglesOf(report.recommended));
+  report.largest_difference_mm = report.difference.largest_mm;
+  report.largest_difference_torque = report.difference.largest_torque;
+  if (AngleSpread(report.poses) >= kSeveralAngles) report.gain = FindGain(input);
+  Warn(input, other, report);
 }
 
 }  // namespace bladecurve

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <variant>
 
+#include "model/blade_file.h"
 #include "samples/fit_record.h"
 #include "samples/fitted_photo.h"
 
@@ -22,22 +22,8 @@ Json PointsRecord(const std::vector<Eigen::Vector2d>& points) {
   return record;
 }
 
-Json ShapeRecord(const TaperedRectangle& shape) {
-  return {
-      {"family", "tapered-rectangle"}, {"a_mm", shape.a_mm}, {"b", shape.b}, {"gain", shape.gain}};
-}
-
-Json ShapeRecord(const RigidSpline& shape) {
-  return {{"family", "rigid-spline"},
-          {"degree", shape.degree},
-          {"knots_mm", shape.knots_mm},
-          {"coefficients_mm", shape.coefficients_mm}};
-}
-
-Json DomainRecord(const CurveDomain& domain) {
-  return {{"x_mm", {domain.x_min_mm, domain.x_max_mm}},
-          {"theta_rad", {domain.theta_min_rad, domain.theta_max_rad}}};
-}
+// As the model writes it: what the format's own keys look like is said in one place.
+Json PlainFile(const BladeCurve& curve) { return Json::parse(BladeFileText({"", curve})); }
 
 Json AlternativesRecord(const BladeFit& fit) {
   Json record = Json::array();
@@ -131,9 +117,7 @@ std::string LineAKey(const Json& record) {
 
 }  // namespace
 
-Json CurveRecord(const BladeCurve& curve) {
-  return std::visit([](const auto& shape) { return ShapeRecord(shape); }, curve.shape());
-}
+Json CurveRecord(const BladeCurve& curve) { return PlainFile(curve).at("curve"); }
 
 std::vector<std::string> Warnings(const Analysis& analysis) {
   std::vector<std::string> warnings;
@@ -160,10 +144,11 @@ std::string BladeRecordText(const Analysis& analysis, const RecordOptions& optio
       {"name", options.name},
       {"status", Status(analysis)},
       {"warnings", Warnings(analysis)},
+      {"notes", analysis.fit.notes},
       {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
       {"curve", CurveRecord(fit.curve)},
       {"alternatives", AlternativesRecord(analysis.fit)},
-      {"domain", DomainRecord(fit.curve.domain())},
+      {"domain", PlainFile(fit.curve).at("domain")},
       {"covariance",
        {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
       {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},

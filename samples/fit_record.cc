@@ -75,7 +75,9 @@ Json Record(const FamilyDifference& difference) {
           {"torque_at_theta_rad", difference.torque_at_theta_rad},
           {"near_closing_mm", difference.near_closing_mm},
           {"near_closing_torque", difference.near_closing_torque},
-          {"near_closing_theta_rad", difference.near_closing_theta_rad}};
+          {"near_closing_theta_rad", difference.near_closing_theta_rad},
+          {"photographed_mm", difference.photographed_mm},
+          {"photographed_torque", difference.photographed_torque}};
 }
 
 template <typename Item>
@@ -121,6 +123,11 @@ Json BandsRecord(const BladeFit& fit) {
   return record;
 }
 
+// What the points determine with the knots left open; null for a straight edge.
+Json EffectiveCoefficients(const FamilyFit& fit) {
+  return fit.finer ? Json(fit.finer->effective_coefficients) : Json();
+}
+
 }  // namespace
 
 Json FitRecord(const BladeFit& fit, double mm_per_px) {
@@ -130,6 +137,7 @@ Json FitRecord(const BladeFit& fit, double mm_per_px) {
           {"points", chosen.points},
           {"inliers", chosen.inliers},
           {"effective_points", chosen.effective_points},
+          {"effective_coefficients", EffectiveCoefficients(chosen)},
           {"chi2", chosen.chi2},
           {"freedom", chosen.freedom},
           {"sigma_scale", chosen.sigma_scale},

@@ -73,6 +73,40 @@ std::string PhotoLines(const PhotoMeasurement& photo, const FittedPose& pose, co
          fmt::format("    scale  {:.6g} {}/px ({})\n", fitted.mm_per_px, unit, photo.scale_source);
 }
 
+const char* OtherFamily(const BladeFit& fit) {
+  const bool tapered = std::holds_alternative<TaperedRectangle>(fit.recommended.curve.shape());
+  return tapered ? "rigid-spline" : "tapered-rectangle";
+}
+
+// Why this family, how far the other one is from it, and what the photographs say themselves.
+std::string FamilyLines(const BladeFit& fit, const char* unit) {
+  const FamilyDifference& d = fit.difference;
+  std::string text = fmt::format("  family   {}\n", fit.why_recommended);
+  text += fmt::format(
+      "    {} differs by up to {:.2g} {} at the photographed angle{}, {:.2g} {} at {:.3g} deg\n",
+      OtherFamily(fit),
+      d.photographed_mm,
+      unit,
+      fit.poses.size() > 1 ? "s" : "",
+      d.largest_mm,
+      unit,
+      d.at_theta_rad * kDegPerRad);
+  if (d.largest_torque > 0) {
+    text +=
+        fmt::format("    and its torque by up to {:.0f} %, {:.0f} % near closing ({:.3g} deg)\n",
+                    100 * d.largest_torque,
+                    100 * d.near_closing_torque,
+                    d.near_closing_theta_rad * kDegPerRad);
+  }
+  if (!std::isnan(fit.gain.gain)) {
+    text += fmt::format(
+        "    gain of the photographs {:.3f} +- {:.2g} (the paper: 0.5; a rigid turn: about 1)\n",
+        fit.gain.gain,
+        fit.gain.sigma);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string StatusLine(const Analysis& analysis, const std::string& name) {
@@ -87,6 +121,7 @@ std::string FitSummaryText(const Analysis& analysis, bool pixels) {
   std::string text = CurveLines(fit);
   text += fmt::format(
       "  misfit   {:.2g} {} rms, {} of {} points\n", fit.rms_mm, unit, fit.inliers, fit.points);
+  text += FamilyLines(analysis.fit, unit);
   for (std::size_t i = 0; i < analysis.photos.size(); ++i) {
     text += PhotoLines(analysis.photos[i], analysis.fit.poses[i], unit);
   }

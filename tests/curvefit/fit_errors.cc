@@ -23,6 +23,10 @@ bool Warned(const BladeFit& fit, const std::string& code) {
   return std::find(fit.warnings.begin(), fit.warnings.end(), code) != fit.warnings.end();
 }
 
+bool Noted(const BladeFit& fit, const std::string& code) {
+  return std::find(fit.notes.begin(), fit.notes.end(), code) != fit.notes.end();
+}
+
 const FamilyFit& TaperedOf(const BladeFit& fit) {
   const bool first = std::holds_alternative<TaperedRectangle>(fit.recommended.curve.shape());
   return first ? fit.recommended : fit.alternatives.front();

@@ -17,6 +17,9 @@ namespace bladecurve {
 // Whether a warning was given.
 [[nodiscard]] bool Warned(const BladeFit& fit, const std::string& code);
 
+// Whether a note was made.
+[[nodiscard]] bool Noted(const BladeFit& fit, const std::string& code);
+
 // The fit of the tapered family, wherever it stands.
 [[nodiscard]] const FamilyFit& TaperedOf(const BladeFit& fit);
 
