@@ -162,7 +162,7 @@ DeformationRamp FitBeginning(const PlateLog& log,
     search.contact_weight = std::pow(ramp.noise_n / scene.contact_sigma_mm, 2);
     ramp = FitDeformationRamp(rows, search);
   }
-  if (ramp.rows >= kFewestRows && ramp.stiffness_n_per_mm > 0) return ramp;
+  if (ramp.rows >= kFewestRows) return ramp;
   throw LogRefused("too_short",
                    log.source + ": " + std::to_string(ramp.rows) +
                        " rows between contact and cut; log faster or close slower");

@@ -57,7 +57,8 @@ struct Judged {
   DeformationRamp ramp;
 };
 
-// The best slopes for given bends. With a = delta - contact, limited to [0, width], and
+// The best slopes for given bends; none where the force does not rise up to the start of the cut,
+// and more steeply than after it. With a = delta - contact, limited to [0, width], and
 // b = max(0, delta - contact - width), the ramp is k a + m b: two normal equations.
 Judged Judge(const Rows& rows, double contact, double width) {
   constexpr double kEverything = std::numeric_limits<double>::infinity();
@@ -74,6 +75,7 @@ Judged Judge(const Rows& rows, double contact, double width) {
   if (!(determinant > 0)) return {};
   const double k = (bb * ay - ab * by) / determinant;
   const double m = (aa * by - ab * ay) / determinant;
+  if (!(k > 0) || m >= k) return {};
   return {rows.All().yy - k * ay - m * by, {contact, width, k, static_cast<int>(rise.n)}};
 }
 
