@@ -9,6 +9,7 @@
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
 #include "vision/edge_clipping.h"
+#include "vision/edge_glare.h"
 #include "vision/edge_levels.h"
 #include "vision/edge_slice.h"
 #include "vision/edge_windows.h"
@@ -36,19 +37,9 @@ constexpr Round kSketch = {6, true, false, true, false};
 constexpr int kImproveRounds = 2;
 constexpr Round kImprove = {2, true, true, true, false};
 constexpr Round kFinal = {1, true, true, true, true};
-constexpr double kNearlyWhite = 0.15;  // linear light; noise and compression stay within
-constexpr double kLeastNoise = 2e-4;   // linear light; rendered pictures without noise
+constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
 
 size_t Index(int i) { return static_cast<size_t>(i); }
-
-// Noise may differ between metal and cloth, and does once gamma is undone.
-struct SideNoise {
-  double blade = 0.02, ground = 0.02;
-
-  [[nodiscard]] double Weight(double step) const {
-    return 1 / ((1 - step) * blade * blade + step * ground * ground);
-  }
-};
 
 class Fitter {
  public:
@@ -74,10 +65,10 @@ class Fitter {
     path_ = std::move(path);
     stride_ = options_.blur_known ? 1 : 1 + path_.size() / kEnough;  // glare needs every pixel
     offsets_.assign(path_.points.size(), 0.0);
-    inner_px_ = AlongPath(options_.inner_px);
+    inner_px_ = SpreadEvenly(options_.inner_px, path_.size());
     for (double& inner : inner_px_) inner -= face_moved_px_;
     band_ = GatherPixels(grey_, tone_, path_, {InnerReach(), OuterReach()});
-    if (options_.blur_known) glare_ = Overexposure(band_);
+    if (options_.blur_known) glare_ = Glare(band_);
   }
 
   void Improve(const Round& round) {
@@ -95,7 +86,7 @@ class Fitter {
       for (const PreparedPixel& pixel : Prepare(i)) {
         if (pixel.weight > 0) windows.Add(i, pixel.terms, pixel.light, pixel.weight);
       }
-      AddUnknownLight(i, windows);
+      glare_.AddUnknownLight(i, &windows);
       if (round.last) kept_.push_back(prepared_);
     }
     windows_ = std::move(windows);
@@ -112,8 +103,8 @@ class Fitter {
     windows_.Solve(precision + slopes_);
   }
 
-  // First without the bend: slope and bend together leave each other so uncertain that neither would
-  // seem supported, and a shadow along the blade would move the edge into it.
+  // First without the bend: slope and bend together leave each other so uncertain that neither
+  // would seem supported, and a shadow along the blade would move the edge into it.
   LevelVector SupportedSlopes(const LevelVector& precision) {
     LevelVector straight = precision;
     straight[kGroundBend] = kFixed;
@@ -140,56 +131,14 @@ class Fitter {
       const StepSample sample = step.At(across);
       prepared_.push_back(
           {band_.pixels[Index(p)].light,
-           WeightAt(i, sample.step),
+           glare_.Weight(i, sample.step, noise_),
            LevelTerms(sample, step.At(across + inner_px_[Index(i)]), across, variance)});
     }
-    if (glare_.OfBlade(i) || glare_.OfGround(i)) HideWhite(i);
-    return prepared_;
-  }
-
-  // The noise of an overexposed side is cut off with its light: the other side's stands in.
-  [[nodiscard]] double WeightAt(int i, double step) const {
-    constexpr double kModelError = 0.01;  // linear light; blur is no Gaussian to the last percent
-    if (!glare_.OfBlade(i) && !glare_.OfGround(i)) return noise_.Weight(step);
-    const double seen = glare_.OfBlade(i) ? noise_.ground : noise_.blade;
-    return 1 / (seen * seen + kModelError * kModelError);
-  }
-
-  // Takes the pixels that an overexposed side makes white, or nearly, out of the balance: by what
-  // the levels say they should show, for what they do show is cut off.
-  void HideWhite(int i) {
-    const bool known = !windows_.fits().empty();
-    const LevelVector levels = known ? windows_.LevelsAt(i) : LevelVector::Zero();
-    for (PreparedPixel& pixel : prepared_) {
-      const double expected = known ? levels.dot(pixel.terms) : pixel.light;
-      if (std::max(expected, pixel.light - kNearlyWhite) > Overexposure::kTrusted) pixel.weight = 0;
+    if (glare_.At(i)) {
+      const bool known = !windows_.fits().empty();
+      Glare::HideWhite(known ? std::optional(windows_.LevelsAt(i)) : std::nullopt, &prepared_);
     }
-  }
-
-  // What is known of the light of an overexposed side where its flank says little: a stop above
-  // white, give or take one, and even.
-  static void AddUnknownLight(int i, LevelTerm level, LevelTerm slope, EdgeWindows& windows) {
-    constexpr double kUsual = 2, kSigma = 1;  // of white
-    constexpr double kSlopeSigma = 0.02;      // of white, per px
-    LevelVector terms = LevelVector::Zero();
-    terms[level] = 1;
-    windows.Add(i, terms, kUsual, 1 / (kSigma * kSigma));
-    terms[level] = 0;
-    terms[slope] = 1;
-    windows.Add(i, terms, 0, 1 / (kSlopeSigma * kSlopeSigma));
-  }
-
-  void AddUnknownLight(int i, EdgeWindows& windows) const {
-    if (glare_.OfBlade(i)) AddUnknownLight(i, kBlade, kBladeSlope, windows);
-    if (glare_.OfGround(i)) AddUnknownLight(i, kGround, kGroundSlope, windows);
-  }
-
-  [[nodiscard]] std::vector<double> AlongPath(const std::vector<double>& evenly_spaced) const {
-    std::vector<double> values;
-    const size_t last = Index(std::max(path_.size() - 1, 1));
-    for (int i = 0; i < path_.size(); ++i)
-      values.push_back(evenly_spaced[Index(i) * (evenly_spaced.size() - 1) / last]);
-    return values;
+    return prepared_;
   }
 
   // The levels must be seen beyond the blur, but not the next transition: in the background the
@@ -208,7 +157,7 @@ class Fitter {
 
   [[nodiscard]] std::vector<double> OuterReach() const {
     constexpr double kBefore = 1, kLeast = 1.5;
-    std::vector<double> reach = AlongPath(options_.outer_px);
+    std::vector<double> reach = SpreadEvenly(options_.outer_px, path_.size());
     for (double& outer : reach) outer = std::clamp(outer - kBefore, kLeast, WantedReach());
     return reach;
   }
@@ -306,49 +255,18 @@ class Fitter {
         SmoothValues(offsets, weights, 1 / (stride_ * stride_ * kBendSigma * kBendSigma)));
   }
 
-  [[nodiscard]] double SeenShare() const {
-    constexpr double kInformation = 9;  // 1/px^2
-    double seen = 0;
-    for (const LevelFit& window : windows_.fits()) {
-      seen += window.offset_information > kInformation * std::max(window.chi_square_per_pixel, 1.0);
-    }
-    return seen / static_cast<double>(windows_.fits().size());
-  }
-
   EdgeFit Finish() {
     EdgeFit fit;
-    fit.seen = SeenShare();
+    fit.seen = windows_.PlacedShare();
     fit.blur_px = blur_;
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
     fit.spacing = stride_;
-    fit.slices = FitSlices();
+    fit.slices = SolveSlices(kept_, {stride_, noise_.blade, noise_.ground}, windows_);
+    for (EdgeSlice& slice : fit.slices) slice.offset_px += offsets_[Index(slice.sample)];
     fit.path = std::move(path_);
     return fit;
-  }
-
-  [[nodiscard]] SliceTexture MeasureTexture() const {
-    std::vector<SideRest> blade, ground;
-    for (size_t k = 0; k < kept_.size(); ++k) {
-      const SliceRests rests = RestsOf(kept_[k], windows_.LevelsAt(static_cast<int>(k) * stride_));
-      blade.push_back(rests.blade);
-      ground.push_back(rests.ground);
-    }
-    return {TextureSigma(blade, noise_.blade), TextureSigma(ground, noise_.ground)};
-  }
-
-  [[nodiscard]] std::vector<EdgeSlice> FitSlices() const {
-    const SliceTexture texture = MeasureTexture();
-    std::vector<EdgeSlice> slices;
-    for (size_t k = 0; k < kept_.size(); ++k) {
-      const int i = static_cast<int>(k) * stride_;
-      slices.push_back(SolveSlice(
-          kept_[k], windows_.LevelsAt(i), texture, windows_.Nearest(i).kept_information));
-      slices.back().sample = i;
-      slices.back().offset_px += offsets_[Index(i)];
-    }
-    return slices;
   }
 
   const cv::Mat& grey_;
@@ -358,7 +276,7 @@ class Fitter {
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
-  Overexposure glare_;  // empty unless it can be told: without the blur, its flank may be anything
+  Glare glare_;                                   // none unless the blur is known
   double face_moved_px_ = 0;                      // the blade's inner transition, towards the edge
   std::vector<double> inner_px_;                  // to the blade's inner transition, one per sample
   int stride_ = 1;                                // of the samples that are looked at

@@ -97,6 +97,14 @@ std::vector<Vector2d> Shifted(const EdgePath& path, const std::vector<double>& o
   return points;
 }
 
+std::vector<double> SpreadEvenly(const std::vector<double>& values, int count) {
+  std::vector<double> spread;
+  const auto last = static_cast<size_t>(std::max(count - 1, 1));
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i)
+    spread.push_back(values[i * (values.size() - 1) / last]);
+  return spread;
+}
+
 std::vector<double> SmoothValues(const std::vector<double>& values,
                                  const std::vector<double>& weights,
                                  double stiffness) {

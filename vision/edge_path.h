@@ -28,6 +28,9 @@ struct EdgePath {
 [[nodiscard]] std::vector<Eigen::Vector2d> Shifted(const EdgePath& path,
                                                    const std::vector<double>& offsets_px);
 
+// Evenly spaced values along an edge, one for each of `count` samples: the value before it.
+[[nodiscard]] std::vector<double> SpreadEvenly(const std::vector<double>& values, int count);
+
 // The curve f that minimises sum w (f - v)^2 + stiffness sum (second difference of f)^2: follows
 // the values where they have weight, bridges the gaps between by cubics (Whittaker 1923). One value
 // per sample; weights >= 0, some positive.

@@ -100,4 +100,26 @@ EdgeSlice SolveSlice(std::span<const PreparedPixel> pixels,
   return slice;
 }
 
+std::vector<EdgeSlice> SolveSlices(const std::vector<std::vector<PreparedPixel>>& slices,
+                                   const SliceSampling& sampling,
+                                   const EdgeWindows& windows) {
+  std::vector<SideRest> blade, ground;
+  for (size_t k = 0; k < slices.size(); ++k) {
+    const int sample = static_cast<int>(k) * sampling.stride;
+    const SliceRests rests = RestsOf(slices[k], windows.LevelsAt(sample));
+    blade.push_back(rests.blade);
+    ground.push_back(rests.ground);
+  }
+  const SliceTexture texture = {TextureSigma(blade, sampling.noise_blade),
+                                TextureSigma(ground, sampling.noise_ground)};
+  std::vector<EdgeSlice> solved;
+  for (size_t k = 0; k < slices.size(); ++k) {
+    const int sample = static_cast<int>(k) * sampling.stride;
+    const double kept = windows.Nearest(sample).kept_information;
+    solved.push_back(SolveSlice(slices[k], windows.LevelsAt(sample), texture, kept));
+    solved.back().sample = sample;
+  }
+  return solved;
+}
+
 }  // namespace bladecurve

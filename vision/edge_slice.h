@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "vision/edge_levels.h"
+#include "vision/edge_windows.h"
 
 namespace bladecurve {
 
@@ -53,5 +54,17 @@ struct SliceRests {
                                    const LevelVector& levels,
                                    const SliceTexture& texture,
                                    double kept);
+
+// One slice in `stride` samples of the path, and the noise of a pixel on plain blade and ground.
+struct SliceSampling {
+  int stride = 1;
+  double noise_blade = 0, noise_ground = 0;
+};
+
+// All slices of an edge, the texture measured from what they leave over.
+[[nodiscard]] std::vector<EdgeSlice> SolveSlices(
+    const std::vector<std::vector<PreparedPixel>>& slices,
+    const SliceSampling& sampling,
+    const EdgeWindows& windows);
 
 }  // namespace bladecurve

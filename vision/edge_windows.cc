@@ -65,6 +65,14 @@ void EdgeWindows::Solve(const LevelVector& precision) {
 
 LevelVector EdgeWindows::SupportedSlopes() const { return SlopePrecision(fits_, kOverlap); }
 
+double EdgeWindows::PlacedShare() const {
+  constexpr double kInformation = 9;  // 1/px^2
+  const auto placed = std::count_if(fits_.begin(), fits_.end(), [](const LevelFit& fit) {
+    return fit.offset_information > kInformation * std::max(fit.chi_square_per_pixel, 1.0);
+  });
+  return static_cast<double>(placed) / static_cast<double>(fits_.size());
+}
+
 const LevelFit& EdgeWindows::Nearest(int sample) const {
   const long nearest = std::lround(Position(sample));
   return fits_[static_cast<size_t>(std::clamp(nearest, 0L, static_cast<long>(fits_.size()) - 1))];

@@ -29,6 +29,8 @@ class EdgeWindows {
   [[nodiscard]] LevelVector SupportedSlopes() const;
 
   [[nodiscard]] const std::vector<LevelFit>& fits() const { return fits_; }
+  [[nodiscard]] double PlacedShare()
+      const;  // of the windows that place the edge to a third of a px
   [[nodiscard]] const LevelFit& Nearest(int sample) const;
   [[nodiscard]] LevelVector LevelsAt(int sample) const;  // interpolated; no shift or spread
   [[nodiscard]] std::vector<double> AlongTheEdge(const std::vector<double>& of_windows) const;
