@@ -12,216 +12,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d ToVector(const cv::Point& p) { return {p.x, p.y}; }
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// A deep inlet of the contour: between the hull points `start` and `end`, deepest at `far` (indices
-// into the contour).
-struct Inlet {
-  int start = 0, far = 0, end = 0;
-  double depth = 0;
-};
-
-class Outline {
- public:
-  explicit Outline(const std::vector<cv::Point>& contour) : points_(contour) {}
-
-  [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
-  [[nodiscard]] int Wrap(int i) const { return ((i % size()) + size()) % size(); }
-  [[nodiscard]] Vector2d At(int i) const {
-    return ToVector(points_[static_cast<std::size_t>(Wrap(i))]);
-  }
-  // Points from index `from` on, forwards, up to and with `to`.
-  [[nodiscard]] std::vector<Vector2d> Arc(int from, int to) const {
-    std::vector<Vector2d> arc;
-    const int steps = Wrap(to - from);
-    arc.reserve(static_cast<std::size_t>(steps) + 1);
-    for (int k = 0; k <= steps; ++k) arc.push_back(At(from + k));
-    return arc;
-  }
-
- private:
-  const std::vector<cv::Point>& points_;
-};
-
-std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
-  // Shallower ones are ragged borders and the waists of rings.
-  constexpr double kShallowestShare = 0.03;
-  std::vector<Inlet> inlets;
-  if (contour.size() < 30) return inlets;
-  std::vector<int> hull;
-  cv::convexHull(contour, hull, false, false);
-  std::sort(hull.begin(), hull.end());
-  const cv::Rect box = cv::boundingRect(contour);
-  const double shallowest = std::max(3.0, kShallowestShare * std::max(box.width, box.height));
-  const Outline outline(contour);
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    Inlet inlet;
-    inlet.start = hull[k];
-    inlet.end = hull[(k + 1) % hull.size()];
-    const Vector2d a = outline.At(inlet.start);
-    const Vector2d chord = outline.At(inlet.end) - a;
-    const double length = chord.norm();
-    if (length < 2) continue;
-    const int steps = outline.Wrap(inlet.end - inlet.start);
-    for (int i = 1; i < steps; ++i) {
-      const double depth = std::abs(Cross(chord, outline.At(inlet.start + i) - a)) / length;
-      if (depth > inlet.depth) {
-        inlet.depth = depth;
-        inlet.far = outline.Wrap(inlet.start + i);
-      }
-    }
-    if (inlet.depth >= shallowest) inlets.push_back(inlet);
-  }
-  return inlets;
-}
-
-// Index on the arc `from`..`to` of the point furthest from `origin`, among those that lie ahead of
-// it in `direction`; -1 if none does.
-int FurthestAhead(
-    const Outline& outline, int from, int to, const Vector2d& origin, const Vector2d& direction) {
-  int best = -1;
-  double best_distance = 0;
-  const int steps = outline.Wrap(to - from);
-  for (int k = 0; k <= steps; ++k) {
-    const Vector2d offset = outline.At(from + k) - origin;
-    if (offset.dot(direction) > 0 && offset.norm() > best_distance) {
-      best_distance = offset.norm();
-      best = outline.Wrap(from + k);
-    }
-  }
-  return best;
-}
-
-// Width of the filled silhouette across the line crotch-tip at the share `t` of its length.
-double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& to, double t) {
-  const Vector2d along = (to - from).normalized();
-  const Vector2d across(-along.y(), along.x());
-  const Vector2d center = from + t * (to - from);
-  const double reach = 0.35 * (to - from).norm();
-  const auto inside = [&](const Vector2d& p) {
-    const int x = static_cast<int>(std::lround(p.x()));
-    const int y = static_cast<int>(std::lround(p.y()));
-    return x >= 0 && y >= 0 && x < filled.cols && y < filled.rows && filled.at<uchar>(y, x) != 0;
-  };
-  // The longest run that starts close to the line: the blade's inner side is the line, or nearly.
-  double longest = 0;
-  double run = 0;
-  for (double d = -reach; d <= reach; d += 0.5) {
-    if (inside(center + d * across)) {
-      run += 0.5;
-      longest = std::max(longest, run);
-    } else {
-      run = 0;
-    }
-  }
-  return longest;
-}
-
-// Without its first part, where a shadow or the coarseness of the mask may fill the crotch.
-std::vector<Vector2d> ClearOfCrotch(const std::vector<Vector2d>& inner) {
-  constexpr double kFilledShare = 0.15;
-  const double reach = kFilledShare * (inner.back() - inner.front()).norm();
-  const auto clear = std::find_if(inner.begin(), inner.end(), [&](const Vector2d& p) {
-    return (p - inner.front()).norm() > reach;
-  });
-  return {clear, inner.end()};
-}
-
-// Sag and roughness of a polyline about the parabola through it, relative to its chord.
-void DescribeSide(const std::vector<Vector2d>& side, BladeContour* blade) {
-  const Vector2d origin = side.front();
-  const Vector2d chord = side.back() - origin;
-  const double length = chord.norm();
-  if (length < 4 || side.size() < 6) {
-    blade->roughness = 1;
-    return;
-  }
-  const Vector2d along = chord / length;
-  Eigen::MatrixXd terms(static_cast<Eigen::Index>(side.size()), 3);
-  Eigen::VectorXd offsets(static_cast<Eigen::Index>(side.size()));
-  for (std::size_t i = 0; i < side.size(); ++i) {
-    const Vector2d p = side[i] - origin;
-    const double t = p.dot(along) / length;
-    terms.row(static_cast<Eigen::Index>(i)) << 1, t, t * t;
-    offsets[static_cast<Eigen::Index>(i)] = Cross(along, p) / length;
-  }
-  const Eigen::Vector3d k = (terms.transpose() * terms).ldlt().solve(terms.transpose() * offsets);
-  blade->bend = std::abs(k[2]) / 4;
-  blade->roughness =
-      std::sqrt((offsets - terms * k).squaredNorm() / static_cast<double>(side.size()));
-}
-
-// Whether any of the points lies at the frame, or where something hides what goes on (`hidden`, may
-// be empty).
-bool RunsOutOfSight(const std::vector<Vector2d>& points,
-                    const cv::Mat& hidden,
-                    const cv::Size& size) {
-  const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
-  return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
-    const cv::Point at(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
-    if (!inner.contains(at)) return true;
-    return !hidden.empty() && cv::countNonZero(hidden(cv::Rect(at.x - 2, at.y - 2, 5, 5))) > 0;
-  });
-}
-
-// The blade on one side of the crotch. `inner` from crotch to tip, `outer` from the tip on to the
-// next concavity.
-BladeContour DescribeBlade(const Silhouette& silhouette,
-                           std::vector<Vector2d> inner,
-                           std::vector<Vector2d> outer) {
-  BladeContour blade;
-  blade.tip = inner.back();
-  const Vector2d crotch = inner.front();
-  blade.length = (blade.tip - crotch).norm();
-  DescribeSide(ClearOfCrotch(inner), &blade);
-  blade.width = WidthAcross(silhouette.filled, crotch, blade.tip, 0.5);
-  const double near_tip = std::max(WidthAcross(silhouette.filled, crotch, blade.tip, 0.88),
-                                   WidthAcross(silhouette.filled, crotch, blade.tip, 0.95));
-  blade.taper = near_tip / std::max(blade.width, 1.0);
-  std::vector<Vector2d> end;
-  const auto near = [&](const Vector2d& p) { return (p - blade.tip).norm() < 0.15 * blade.length; };
-  std::copy_if(inner.begin(), inner.end(), std::back_inserter(end), near);
-  std::copy_if(outer.begin(), outer.end(), std::back_inserter(end), near);
-  blade.cut_off = RunsOutOfSight(end, {}, silhouette.filled.size());
-  blade.inner = std::move(inner);
-  blade.outer = std::move(outer);
-  return blade;
-}
-
 // The two inlets on the axis of the scissors: the gap between the blades, and the one between the
 // shanks.
 struct Crossing {
   const Inlet* gap;
   const Inlet* back;
 };
-
-// The free end of a shank: a ring, or where the frame cuts it off.
-struct ShankEnd {
-  Vector2d point;
-  double length = 0;
-  double flare = 0;  // widest near the end over the width half way; a ring has > 1.5
-  bool cut_off = false;
-};
-
-ShankEnd DescribeShank(const Silhouette& silhouette,
-                       const cv::Mat& hidden,
-                       const std::vector<Vector2d>& arc,
-                       const Vector2d& point,
-                       const Vector2d& shank_crotch) {
-  ShankEnd end;
-  end.point = point;
-  end.length = (point - shank_crotch).norm();
-  double widest = 0;
-  for (const double t : {0.75, 0.83, 0.9, 0.95}) {
-    widest = std::max(widest, WidthAcross(silhouette.filled, shank_crotch, point, t));
-  }
-  const double middle = std::max(1.0, WidthAcross(silhouette.filled, shank_crotch, point, 0.4));
-  end.flare = widest / middle;
-  end.cut_off = RunsOutOfSight(arc, hidden, silhouette.filled.size());
-  return end;
-}
 
 // Falls from 1 at `good` to 0 at `bad`.
 double Grade(double value, double good, double bad) {
@@ -251,11 +47,13 @@ void GradeBlades(BladePair* pair) {
   const double wider = std::max(a.width, b.width);
   Apply({{Grade(std::max(a.roughness, b.roughness), 0.02, 0.08), "an edge is not smooth"},
          {Grade(std::max(a.bend, b.bend), 0.08, 0.22), "a blade is strongly bent"},
-         {Grade(std::max(a.taper, b.taper), 1.0, 1.5), "a blade widens towards its end"},
-         {Grade(1 - std::min(a.length, b.length) / longer, 0.25, 0.55),
-          "the blades differ in length"},
          {Grade(wider / std::max(1.0, std::min(a.width, b.width)), 2.5, 5.0),
           "the blades differ in width"}},
+        pair);
+  if (a.cut_off || b.cut_off) return;  // their ends are out of the picture
+  Apply({{Grade(std::max(a.taper, b.taper), 1.0, 1.5), "a blade widens towards its end"},
+         {Grade(1 - std::min(a.length, b.length) / longer, 0.25, 0.55),
+          "the blades differ in length"}},
         pair);
 }
 

@@ -7,23 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "vision/limbs.h"
 #include "vision/silhouette.h"
 
 namespace bladecurve {
-
-// One blade as the contour shows it, in pixels of the mask. `inner` runs from the crotch to the
-// tip: the cutting edge.
-struct BladeContour {
-  std::vector<Eigen::Vector2d> inner;
-  std::vector<Eigen::Vector2d> outer;  // from the tip back to the concavity beside the pivot
-  Eigen::Vector2d tip;
-  double length = 0;  // crotch to tip
-  double width = 0;   // half way along
-  double taper = 0;   // width near the tip over width half way; a ring or a cut-off shank has > 1
-  double bend = 0;    // sag of the inner side over its length
-  double roughness = 0;  // rms of the inner side about a parabola, over its length
-  bool cut_off = false;  // the end touches the frame
-};
 
 // Two blades with the gap between them, as the silhouette's concavities show them.
 struct BladePair {

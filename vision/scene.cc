@@ -121,6 +121,13 @@ Scene SceneFrom(const Candidate& found) {
 }
 
 void RefuseUnlessUsable(const LadderResult& ladder) {
+  const bool blades_seen = ladder.best.pair.quality >= kAcceptedQuality &&
+                           !ladder.best.pair.first.cut_off && !ladder.best.pair.second.cut_off;
+  if (!blades_seen && ladder.closed) {
+    throw Refused(Reason::kClosed,
+                  "scene: the scissors are closed; open them by 5 to 90 degrees so that both "
+                  "cutting edges are free");
+  }
   if (ladder.best.pair.quality < kAcceptedQuality) {
     const std::string nearest = ladder.best.pair.doubt.empty()
                                     ? ""

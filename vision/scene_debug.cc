@@ -38,7 +38,6 @@ void DrawPath(const std::vector<Eigen::Vector2d>& path,
 
 // Distances up to `kMost` as grey values, the logarithm so that faint blades show.
 cv::Mat ViewableDistance(const cv::Mat& distance) {
-  if (distance.type() == CV_8UC1) return distance / 2;
   constexpr double kMost = 128;
   cv::Mat logarithm;
   cv::log(distance + 1, logarithm);
@@ -49,12 +48,12 @@ cv::Mat ViewableDistance(const cv::Mat& distance) {
 
 }  // namespace
 
-cv::Mat DrawRung(const cv::Mat& distance, const std::vector<Candidate>& candidates) {
+cv::Mat DrawRung(const Rung& rung) {
   cv::Mat picture;
-  cv::cvtColor(ViewableDistance(distance), picture, cv::COLOR_GRAY2BGR);
+  cv::cvtColor(ViewableDistance(rung.distance), picture, cv::COLOR_GRAY2BGR);
   cv::resize(picture, picture, {}, kZoom, kZoom, cv::INTER_NEAREST);
   int line = 0;
-  for (const Candidate& c : candidates) {
+  for (const Candidate& c : rung.candidates) {
     const double bright = 60 + 195 * c.pair.quality;
     DrawPath(c.pair.first.inner, nullptr, {0, 0, bright}, &picture);
     DrawPath(c.pair.second.inner, nullptr, {0, bright, 0}, &picture);

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/scene_ladder.h"
+#include "vision/scene_candidate.h"
 
 namespace bladecurve {
 
@@ -13,9 +13,8 @@ namespace bladecurve {
 // pivot. CV_8UC3.
 [[nodiscard]] cv::Mat DrawScene(const Candidate& found, const Scene& scene);
 
-// What a rung of the ladder saw: the distance from the background (CV_32FC1, brightness its
-// logarithm) or a mask (CV_8UC1), with the inner edges and the pivot of every candidate, the better
-// the brighter. CV_8UC3.
-[[nodiscard]] cv::Mat DrawRung(const cv::Mat& distance, const std::vector<Candidate>& candidates);
+// What a rung of the ladder saw: the brighter the further from the background (logarithm), with the
+// inner edges and the pivot of every candidate, the better the brighter. CV_8UC3.
+[[nodiscard]] cv::Mat DrawRung(const Rung& rung);
 
 }  // namespace bladecurve

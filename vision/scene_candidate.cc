@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene_candidate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/closed_shape.h"
+#include "vision/robust_statistics.h"
+#include "vision/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// Median difference between `reach` px outside and inside of a path, in the units of the image.
+double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path, double reach) {
+  std::vector<double> steps;
+  const auto value = [&](const Vector2d& p, int c) {
+    const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
+    const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.rows - 1);
+    return static_cast<double>(image.ptr<float>(y)[x * image.channels() + c]);
+  };
+  for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
+    const Vector2d along = (path[i + 3] - path[i - 3]).normalized();
+    const Vector2d across(reach * along.y(), -reach * along.x());
+    double squared = 0;
+    for (int c = 0; c < image.channels(); ++c) {
+      squared += std::pow(value(path[i] + across, c) - value(path[i] - across, c), 2);
+    }
+    steps.push_back(std::sqrt(squared));
+  }
+  return steps.empty() ? 0 : Median(steps);
+}
+
+constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp border's transition
+constexpr double kSoftReach = 5;     // most of a soft shadow's
+
+// Of the two inner edges the weaker: a shadow that passes for a blade has a soft border.
+double EdgeStrength(const cv::Mat& image, const BladePair& pair) {
+  return std::min(TransitionAcross(image, pair.first.inner, kSharpReach),
+                  TransitionAcross(image, pair.second.inner, kSharpReach));
+}
+
+// Share of the transition that a sharp border would have there, of the softer inner edge.
+double EdgeSharpness(const cv::Mat& image, const BladePair& pair) {
+  const auto sharpness = [&](const std::vector<Vector2d>& path) {
+    return TransitionAcross(image, path, kSharpReach) /
+           std::max(1e-6, TransitionAcross(image, path, kSoftReach));
+  };
+  return std::min(sharpness(pair.first.inner), sharpness(pair.second.inner));
+}
+
+// Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
+void DoubtSoftEdges(Candidate* candidate) {
+  constexpr double kSoft = 0.25;
+  constexpr double kSharp = 0.4;
+  const double grade = std::clamp((candidate->sharpness - kSoft) / (kSharp - kSoft), 0.0, 1.0);
+  candidate->pair.quality *= grade;
+  if (grade >= candidate->pair.worst_grade) return;
+  candidate->pair.worst_grade = grade;
+  candidate->pair.doubt = "an edge is soft like a shadow's";
+}
+
+bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
+  if (hints.tips_direction) {
+    const Vector2d towards = 0.5 * (pair.first.tip + pair.second.tip) - pair.pivot;
+    if (towards.normalized().dot(*hints.tips_direction) < 0.5) return false;
+  }
+  if (hints.pivot_px) {
+    const double off = (at.FullFromSmall(pair.pivot) - *hints.pivot_px).norm();
+    if (off > 2 * std::max(pair.shank_width, 0.2 * pair.first.length) * at.full_px_per_px())
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double SizeOf(const BladePair& pair) { return std::max(pair.first.length, pair.second.length); }
+
+bool SameBlades(const Candidate& a, const Candidate& b) {
+  const double near = 0.25 * a.at->full_px_per_px() * SizeOf(a.pair);
+  const auto apart = [&](const Vector2d& p, const Vector2d& q) {
+    return (a.at->FullFromSmall(p) - b.at->FullFromSmall(q)).norm() > near;
+  };
+  return !apart(a.pair.pivot, b.pair.pivot) && !apart(a.pair.first.tip, b.pair.first.tip) &&
+         !apart(a.pair.second.tip, b.pair.second.tip);
+}
+
+void CollectFrom(const cv::Mat& mask,
+                 const Candidate& like,
+                 const cv::Mat& hidden,
+                 const StoredHints& hints,
+                 Rung* rung) {
+  constexpr int kMostThings = 4;         // a ruler, a card, a label, and the scissors
+  constexpr double kWorthKeeping = 0.2;  // what clutter reaches
+  bool closed = false;
+  for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
+    closed = closed || LooksClosed(silhouette);
+    for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
+      if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
+      Candidate candidate = like;
+      candidate.strength = EdgeStrength(like.at->pixels, pair);
+      candidate.sharpness = EdgeSharpness(like.at->pixels, pair);
+      candidate.pair = std::move(pair);
+      DoubtSoftEdges(&candidate);
+      candidate.mask = mask;
+      rung->candidates.push_back(std::move(candidate));
+      break;  // the best pair of each thing
+    }
+  }
+  if (closed) ++rung->closed;
+}
+
+void CountAgreeing(std::vector<Candidate>* candidates) {
+  for (Candidate& a : *candidates) {
+    a.agreeing = static_cast<int>(
+        std::count_if(candidates->begin(), candidates->end(), [&](const Candidate& b) {
+          return SameBlades(a, b);
+        }));
+  }
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene_rungs.h"
+
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/flood.h"
+#include "vision/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+// In units of the background's scatter. Below 2 it is all background, above 64 nothing is left of
+// most blades.
+constexpr double kThresholds[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+
+Rung ThresholdAll(const cv::Mat& distance,
+                  const cv::Mat& hidden,
+                  const Candidate& like,
+                  const StoredHints& hints) {
+  cv::Mat smooth;
+  cv::GaussianBlur(distance, smooth, {}, 0.8);
+  double most = 0;
+  cv::minMaxLoc(smooth, nullptr, &most);
+  Rung rung;
+  rung.distance = distance;
+  for (const double threshold : kThresholds) {
+    if (threshold > most) break;
+    Candidate at_threshold = like;
+    at_threshold.threshold = threshold;
+    CollectFrom(MaskAbove(smooth, threshold), at_threshold, hidden, hints, &rung);
+  }
+  CountAgreeing(&rung.candidates);
+  return rung;
+}
+
+cv::Mat LabDistance(const SceneView& view, const ColourPictures& colour) {
+  const BackgroundModel background = FitBackground(colour.lab->pixels, colour.ignore);
+  cv::Mat distance = DistanceFromBackground(colour.lab->pixels, background, view.LocalWindow());
+  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
+  return distance;
+}
+
+// What stays dry up to a level, without the specks of grain that cling to it. Walls are thicker
+// than what they enclose by half of what was closed, so that much may go.
+cv::Mat DryMask(const cv::Mat& levels, double level, int closed_px) {
+  cv::Mat mask = levels > level;
+  cv::morphologyEx(mask,
+                   mask,
+                   cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
+  cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  return mask;
+}
+
+}  // namespace
+
+Rung GreyRung(const SceneView& view) {
+  const auto at = std::make_shared<const ScaledImage>(SmallGrey(view, kSmallSide));
+  const cv::Mat ignore = view.MarkerMask(*at);
+  const BackgroundModel background = FitBackground(at->pixels, ignore);
+  cv::Mat distance = DistanceFromBackground(at->pixels, background, view.LocalWindow());
+  if (!ignore.empty()) distance.setTo(0, ignore);
+  return ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, view.hints);
+}
+
+Rung ColourRung(const SceneView& view, const ColourPictures& colour) {
+  const Candidate like{{}, colour.lab, {}, "colour"};
+  return ThresholdAll(LabDistance(view, colour), colour.ignore, like, view.hints);
+}
+
+Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
+  cv::Mat light;
+  colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
+  const BackgroundModel background = FitBackground(light, colour.ignore);
+  cv::Mat distance = DistanceFromShadedBackground(light, background, view.LocalWindow());
+  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
+  const Candidate like{{}, colour.lab, {}, "shadow-blind"};
+  return ThresholdAll(distance, colour.ignore, like, view.hints);
+}
+
+Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
+  // In units of the usual gradient. Below, the ground is dry too; above, most metal is wet.
+  constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
+  const cv::Mat distance = LabDistance(view, colour);
+  Rung rung;
+  for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
+    rung.distance = FloodLevels(colour.lab->pixels, distance, colour.ignore, closed_px);
+    for (const double level : kLevels) {
+      CollectFrom(DryMask(rung.distance, level, closed_px),
+                  {{}, colour.lab, {}, "flood", level},
+                  colour.ignore,
+                  view.hints,
+                  &rung);
+    }
+  }
+  CountAgreeing(&rung.candidates);
+  return rung;
+}
+
+}  // namespace bladecurve

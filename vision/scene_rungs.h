@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/scene_candidate.h"
+#include "vision/scene_view.h"
+
+namespace bladecurve {
+
+// Sides of the small pictures, px. Blades of a sixth of the picture keep 100 px; more costs time
+// and finds no more. Walls are pixels thick: gaps between blades need more of them.
+inline constexpr int kSmallSide = 640;
+inline constexpr int kFloodSide = 960;
+
+// By lightness alone.
+[[nodiscard]] Rung GreyRung(const SceneView& view);
+// By colour and lightness (Lab).
+[[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
+// By what a shadow does not do to the background.
+[[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
+// By sharp outlines, whatever the colours.
+[[nodiscard]] Rung FloodRung(const SceneView& view, const ColourPictures& colour);
+
+}  // namespace bladecurve
