@@ -17,6 +17,7 @@
 
 #include "vision/edge.h"
 #include "vision/edge_images.h"
+#include "vision/measure.h"
 #include "vision/photo.h"
 #include "vision/refused.h"
 
@@ -168,6 +169,18 @@ double ShareWithinTolerance(const std::vector<TrueEdge>& edges) {
   return good / std::max(tries, 1.0);
 }
 
+// rms distance of the upper edge from the truth, the whole photograph being measured: with both
+// blades seen, glare and dark bands are settled that one edge in grey alone leaves open.
+double MeasuredRms(const TrueEdge& edge) {
+  MeasureOptions options;
+  options.scale.mm_per_px = 1;
+  const PhotoMeasurement photo = MeasurePhoto(edge.photo, options);
+  double squares = 0;
+  for (const Vector2d& point : photo.upper_edge_px)
+    squares += std::pow(DistanceTo(edge.px, point), 2);
+  return std::sqrt(squares / static_cast<double>(photo.upper_edge_px.size()));
+}
+
 class EdgePhotos : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -179,6 +192,22 @@ class EdgePhotos : public ::testing::Test {
 // One scene in eight has a blade that is overexposed by far; its bloom is no edge.
 TEST_F(EdgePhotos, UpperEdgesOfRenderedScenesAreFound) {
   EXPECT_GE(ShareWithinTolerance(EdgesIn(folder_ / "rendered", "upper")), 0.8);
+}
+
+// One may fail, as one in eight of those held back may.
+TEST_F(EdgePhotos, BothBladesTogetherSettleGlareAndShadows) {
+  const std::vector<TrueEdge> edges = EdgesIn(folder_ / "rendered", "upper");
+  double good = 0;
+  for (const TrueEdge& edge : edges) {
+    try {
+      const double rms = MeasuredRms(edge);
+      std::printf("%-42s rms %.2f px\n", edge.name.c_str(), rms);
+      good += rms <= edge.tolerance_px;
+    } catch (const Refused& refused) {
+      std::printf("%-42s %s\n", edge.name.c_str(), refused.what());
+    }
+  }
+  EXPECT_GE(good + 1, static_cast<double>(edges.size()));
 }
 
 // The lower edges lie in the shadow of the blade: some are as bright as it.
