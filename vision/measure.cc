@@ -96,11 +96,19 @@ void Trim(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
   const double blur = std::isfinite(blade->edge.blur_px) ? blade->edge.blur_px : 1;
   const double clear =
       4 * blur + 2;  // nearer to the crossing, light of the other blade's edge reaches this one
+  // Near the end the windows of the edge fit, 50 px long, reach round the tip and bend the edge.
+  constexpr double kSmearedPx = 20, kMostOfEdge = 0.05;
+  const double smeared =
+      points.empty() ? 0
+                     : std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
   std::size_t index = 0;
   for (const LocatedEdgePoint& p : blade->edge.points) {
     if (!p.inlier) continue;
     if (index++ >= blade->end.index) break;
-    if ((p.point_px - crotch_px).norm() > clear) blade->used.push_back(p);
+    if ((p.point_px - crotch_px).norm() > clear &&
+        (p.point_px - blade->end.point_px).norm() > smeared) {
+      blade->used.push_back(p);
+    }
   }
   constexpr std::size_t kFewest = 20;  // a shorter edge says little about a curve
   if (blade->used.size() < kFewest) {
@@ -199,6 +207,23 @@ std::vector<EdgePoint> ToFrame(const BladeFrame& frame,
   return points;
 }
 
+// What the points of the lower edge share is not told apart from what both edges share. Where the
+// lower edge is the more doubtful one, its points become so uncertain that their mean is as
+// doubtful as the edge.
+std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
+  std::vector<LocatedEdgePoint> points = lower.used;
+  const double own_px = lower.edge.common_sigma_px;
+  if (!(own_px > upper_common_px)) return points;
+  const double independent =
+      static_cast<double>(points.size()) / std::max(1.0, lower.edge.correlation_px);
+  const double variance_px2 =
+      (own_px * own_px - upper_common_px * upper_common_px) * std::max(1.0, independent);
+  for (LocatedEdgePoint& point : points) {
+    point.sigma_px = std::sqrt(point.sigma_px * point.sigma_px + variance_px2);
+  }
+  return points;
+}
+
 // Everything in mm that the fit needs.
 EdgePoints ToEdgePoints(const BladeFrame& frame,
                         const PlaneMap& map,
@@ -207,7 +232,7 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
                         const LocatedBlade& lower) {
   EdgePoints edges;
   edges.upper = ToFrame(frame, upper.used);
-  edges.lower = ToFrame(frame, lower.used);
+  edges.lower = ToFrame(frame, DoubtedAlone(lower, upper.edge.common_sigma_px));
   edges.pivot = frame.FromImage(pivot.point_px, pivot.covariance_px2);
   edges.upper_end = frame.FromImage(upper.end.point_px, EndCovariance(upper));
   edges.lower_end = frame.FromImage(lower.end.point_px, EndCovariance(lower));
