@@ -77,11 +77,13 @@ PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene
 
 // The rim's own scatter cannot tell that light falling from one side moves all of it: over rendered
 // heads of brushed metal the centre is off by 2 % of the radius. Where one side follows something
-// else than the rim, the ellipse is too short across it by as much as its centre is off.
+// else than the rim, the ellipse is too short across it by as much as its centre is off; 2 % is
+// what a view 11 degrees off the axis explains.
 Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
-  constexpr double kShading = 0.02, kOneSided = 0.9;
+  constexpr double kShading = 0.02, kFlattened = 0.02;
   const double even_px = kShading * screw.semi_major_px;
-  const double one_sided_px = kOneSided * (screw.semi_major_px - screw.semi_minor_px);
+  const double one_sided_px =
+      std::max(0.0, (1 - kFlattened) * screw.semi_major_px - screw.semi_minor_px);
   const Vector2d major(std::cos(screw.angle_rad), std::sin(screw.angle_rad));
   return AlongAcross(major, even_px, std::hypot(even_px, one_sided_px));
 }
