@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 namespace bladecurve {
 namespace {
 
 constexpr int kAngles = 61, kPlaces = 41;  // of the grid: 1 deg and 1 to 2 mm for common scissors
+// "Near closing": nearer, the tapered form's torque goes to infinity and says nothing.
+constexpr double kNearClosing = 5 * std::numbers::pi / 180;
 
 double At(double low, double high, int i, int count) {
   return low + (high - low) * i / (count - 1);
@@ -70,7 +73,7 @@ FamilyDifference CompareFamilies(const BladeCurve& a,
     }
     const std::optional<double> torque = TorqueRatioAt(a, b, theta);
     if (!torque) continue;
-    if (!closing_found) {
+    if (!closing_found && theta >= kNearClosing) {
       difference.near_closing_mm = place.mm;
       difference.near_closing_torque = *torque;
       difference.near_closing_theta_rad = theta;

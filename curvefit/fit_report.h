@@ -85,8 +85,8 @@ struct FamilyDifference {
   double largest_mm = 0, at_x_mm = 0, at_theta_rad = 0;
   double largest_torque = 0,
          torque_at_theta_rad = 0;  // |tau_a / tau_b - 1| of sharp cutting where phi = 0
-  double near_closing_mm =
-      0;  // at the smallest angle of the domain at which both edges cross the axis
+  // At the smallest angle from 5 deg on at which both edges cross the axis.
+  double near_closing_mm = 0;
   double near_closing_torque = 0, near_closing_theta_rad = 0;
   // The largest at the photographs' angles; torque NaN where an edge crosses the axis at none of
   // them.

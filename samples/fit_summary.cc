@@ -82,21 +82,17 @@ const char* OtherFamily(const BladeFit& fit) {
 std::string FamilyLines(const BladeFit& fit, const char* unit) {
   const FamilyDifference& d = fit.difference;
   std::string text = fmt::format("  family   {}\n", fit.why_recommended);
-  text += fmt::format(
-      "    {} differs by up to {:.2g} {} at the photographed angle{}, {:.2g} {} at {:.3g} deg\n",
-      OtherFamily(fit),
-      d.photographed_mm,
-      unit,
-      fit.poses.size() > 1 ? "s" : "",
-      d.largest_mm,
-      unit,
-      d.at_theta_rad * kDegPerRad);
-  if (d.largest_torque > 0) {
-    text +=
-        fmt::format("    and its torque by up to {:.0f} %, {:.0f} % near closing ({:.3g} deg)\n",
-                    100 * d.largest_torque,
-                    100 * d.near_closing_torque,
-                    d.near_closing_theta_rad * kDegPerRad);
+  text += fmt::format("    {} differs by up to {:.2g} {} at the photographed angle{}\n",
+                      OtherFamily(fit),
+                      d.photographed_mm,
+                      unit,
+                      fit.poses.size() > 1 ? "s" : "");
+  if (d.near_closing_theta_rad > 0) {
+    text += fmt::format("    and by {:.2g} {} and {:.0f} % of torque near closing, at {:.3g} deg\n",
+                        d.near_closing_mm,
+                        unit,
+                        100 * d.near_closing_torque,
+                        d.near_closing_theta_rad * kDegPerRad);
   }
   if (!std::isnan(fit.gain.gain)) {
     text += fmt::format(

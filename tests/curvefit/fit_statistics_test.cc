@@ -165,6 +165,22 @@ TEST(FitStatistics, ThreePhotographsBeatOneAsTheBoundPredicts) {
   EXPECT_NEAR(SigmaOf({photos[0]}) / SigmaOf(photos), std::sqrt(3.0), 0.02 * std::sqrt(3.0));
 }
 
+TEST(FitStatistics, ThreeAnglesHoldTheInformationOfEachAndMore) {
+  Noise noise(6);
+  std::vector<EdgePoints> photos;
+  double information = 0;
+  for (const double theta : {0.15, 0.5, 1.0}) {
+    SimulatedPhoto photo;
+    photo.theta_rad = theta;
+    photos.push_back(Photograph(CurvedScissors(), photo, noise));
+    information += std::pow(SigmaOf({photos.back()}), -2);
+  }
+  // Poses differ, so nothing is shared but the shape: the information adds up. Different angles
+  // also fix the pivots.
+  constexpr double kLinear = 1.02;  // sigmas of different draws differ by this much
+  EXPECT_LT(SigmaOf(photos), kLinear / std::sqrt(information));
+}
+
 TEST(FitStatistics, ErrorFallsAsTheRootOfThePoints) {
   SimulatedPhoto few, many;
   for (SimulatedPhoto* photo : {&few, &many}) {

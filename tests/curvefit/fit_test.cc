@@ -69,6 +69,29 @@ TEST(FitBlade, ExactTaperedFormIsRecoveredAtAllAngles) {
   EXPECT_NEAR(fit.gain.gain, 0.5, 1e-9);
 }
 
+TEST(FitBlade, ExactGainOfTheTaperedFormIsRecovered) {
+  SimulatedPhoto photo;
+  photo.theta_given = true;
+  photo.noise_scale = 0;
+  FitOptions options;
+  options.family = Family::kTaperedRectangle;
+  options.gain = std::nullopt;
+  for (const double gain : {0.3, 0.8, 1.0}) {
+    const TrueScissors scissors = TaperedScissors(gain);
+    const BladeFit fit = FitBlade(AtAngles(scissors, photo, 1), options);
+    EXPECT_NEAR(std::get<TaperedRectangle>(fit.recommended.curve.shape()).gain, gain, 1e-9);
+    EXPECT_LT(LargestDifference(fit.recommended.curve, TrueCurve(scissors), 0.3), kExact) << gain;
+  }
+}
+
+TEST(FitBlade, ExactSplineIsRecoveredFromSeveralAngles) {
+  SimulatedPhoto photo;
+  photo.noise_scale = 0;
+  const TrueScissors scissors = SplineScissors(3, {25, 40});
+  const BladeFit fit = FitBlade(AtAngles(scissors, photo, 1), Spline(3, {25, 40}));
+  EXPECT_LT(LargestDifference(fit.recommended.curve, TrueCurve(scissors), 0.5), kExact);
+}
+
 TEST(FitBlade, OnePhotographFixesTheTaperedEdgeAtItsAngle) {
   const TrueScissors scissors = StraightScissors();
   const BladeFit fit = FitBlade({Exact(scissors)});
