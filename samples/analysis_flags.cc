@@ -157,7 +157,9 @@ void AddScaleFlags(CLI::App& command, AnalysisFlags* flags) {
   add("--dpi", flags->dpi, "Pixels an inch of a flatbed scan");
   add("--length-mm", flags->length_mm, "Pivot to distal end of the upper blade, mm");
   add("--print-scale", flags->print_scale, "Measured length of the card's check bar over 100 mm");
-  add("--plane-height-mm", flags->plane_height_mm, "Height of the cutting edges above the sheet");
+  add("--plane-height-mm",
+      flags->plane_height_mm,
+      "Height of the cutting edges above the sheet; without it: plane_height_unknown, 0 +- 2 mm");
   add("--camera", flags->camera, "CALIB.json: width, height, K, dist, as OpenCV means them");
   add("--units", flags->units, "mm, or px: measure in pixels and say so")
       ->check(CLI::IsMember({"mm", "px"}));
