@@ -98,7 +98,7 @@ double HeightUnder(const StepMap& map, const StepLine& line) {
 
 // How wide a bevel may be, px: sharper photographs show more of it.
 double WidestBevel(const Survey& survey) {
-  constexpr double kLeast = 7, kPerLength = 0.02;
+  constexpr double kLeast = 7, kPerLength = 0.05;
   return kLeast + kPerLength * LengthOf(survey.path);
 }
 
