@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -15,6 +15,8 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A section across the silhouette: how much of it is filled, and in how many runs.
 struct Section {
@@ -37,28 +39,32 @@ Section SectionAcross(const cv::Mat& filled, const Vector2d& middle, const Vecto
   return section;
 }
 
-// Sections at equal steps along the longer axis of the box that fits closest.
+// A box along the principal axis of the silhouette.
 struct LongBox {
   Vector2d center, half_long, half_short;
 };
 
 LongBox BoxAround(const std::vector<cv::Point>& contour) {
-  const cv::RotatedRect rect = cv::minAreaRect(contour);
-  std::array<cv::Point2f, 4> corners;
-  rect.points(corners.data());
-  const auto half = [&](int from, int to) -> Vector2d {
-    return 0.5 *
-           Vector2d(
-               corners[static_cast<std::size_t>(to)].x - corners[static_cast<std::size_t>(from)].x,
-               corners[static_cast<std::size_t>(to)].y - corners[static_cast<std::size_t>(from)].y);
-  };
-  LongBox box{{rect.center.x, rect.center.y}, half(0, 1), half(1, 2)};
-  if (box.half_long.norm() < box.half_short.norm()) std::swap(box.half_long, box.half_short);
-  return box;
+  const cv::Moments m = cv::moments(contour);
+  const double angle = 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
+  const Vector2d along(std::cos(angle), std::sin(angle));
+  const Vector2d across(-along.y(), along.x());
+  Vector2d low(kInfinity, kInfinity);
+  Vector2d high = -low;
+  for (const cv::Point& point : contour) {
+    const Vector2d p(point.x, point.y);
+    const Vector2d q(p.dot(along), p.dot(across));
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  const Vector2d middle = 0.5 * (low + high);
+  const Vector2d half = 0.5 * (high - low);
+  return {middle.x() * along + middle.y() * across, half.x() * along, half.y() * across};
 }
 
 constexpr int kSections = 40;
 
+// At equal steps along the longer axis.
 std::vector<Section> SectionsAlong(const cv::Mat& filled, const LongBox& box) {
   std::vector<Section> sections;
   for (int k = 0; k < kSections; ++k) {
@@ -68,10 +74,27 @@ std::vector<Section> SectionsAlong(const cv::Mat& filled, const LongBox& box) {
   return sections;
 }
 
-// With the rings in the first third.
+// The widest of the first third of the sections, and the length over which they are wide.
+struct RingEnd {
+  double width = 0, length = 0;
+};
+
+RingEnd MeasureRings(const std::vector<Section>& sections, double length, double rod_width) {
+  constexpr double kWide = 1.5;  // of the rod
+  RingEnd rings;
+  for (int k = 0; k < kSections / 3; ++k) {
+    const double width = sections[static_cast<std::size_t>(k)].width;
+    rings.width = std::max(rings.width, width);
+    if (width > kWide * rod_width) rings.length += length / kSections;
+  }
+  return rings;
+}
+
+// With two rings side by side in the first third: a single shank has one, longer than wide.
 bool IsRodWithRings(const std::vector<Section>& sections, double length) {
-  constexpr double kRings = 1.9;      // their width over the rod's
-  constexpr double kThickest = 0.16;  // width of the rod over the length of all
+  constexpr double kRings = 1.9;       // their width over the rod's
+  constexpr double kSideBySide = 1.1;  // their width over their length
+  constexpr double kThickest = 0.16;   // width of the rod over the length of all
   constexpr int kRodFrom = kSections * 2 / 5;
   constexpr int kTipFrom = kSections * 19 / 20;
   constexpr int kMostParted = 2;  // sections with a speck or a notch
@@ -81,13 +104,11 @@ bool IsRodWithRings(const std::vector<Section>& sections, double length) {
     rod.push_back(sections[static_cast<std::size_t>(k)].width);
     parted += sections[static_cast<std::size_t>(k)].runs != 1 ? 1 : 0;
   }
-  double rings = 0;
-  for (int k = 0; k < kSections / 3; ++k)
-    rings = std::max(rings, sections[static_cast<std::size_t>(k)].width);
   const double width = Median(rod);
-  const double tip = sections[kTipFrom].width;
-  return parted <= kMostParted && rings > kRings * width && width < kThickest * length &&
-         tip < width;
+  const RingEnd rings = MeasureRings(sections, length, width);
+  return parted <= kMostParted && rings.width > kRings * width &&
+         rings.width > kSideBySide * rings.length && width < kThickest * length &&
+         sections[kTipFrom].width < width;
 }
 
 bool TouchesFrame(const Silhouette& silhouette, const Vector2d& point) {

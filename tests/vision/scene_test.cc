@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "vision/closed_shape.h"
+#include "vision/flood.h"
+#include "vision/measure.h"
+#include "vision/png_writer.h"
+#include "vision/refused.h"
+#include "vision/render.h"
+#include "vision/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+// The reason of a refusal, or "" if the picture is measured.
+std::string ReasonFor(const cv::Mat& picture) {
+  const fs::path file = fs::path(testing::TempDir()) / "scene.png";
+  WritePng(file, picture);
+  MeasureOptions options;
+  options.scale.mm_per_px = 0.25;
+  try {
+    (void)MeasurePhoto(file, options);
+    return "";
+  } catch (const Refused& refused) {
+    return std::string(ReasonCode(refused.reason()));
+  }
+}
+
+SceneSpec SmallScene() {
+  SceneSpec spec;
+  spec.width = 1000;
+  spec.height = 750;
+  spec.camera.mm_per_px = 0.25;
+  return spec;
+}
+
+// Lab picture of an even ground with a sharply outlined disc of the same colour on the left, and a
+// soft dark cloud on the right.
+cv::Mat DiscAndCloud() {
+  cv::Mat lightness(200, 400, CV_32FC1, cv::Scalar(60));
+  cv::circle(lightness, {300, 100}, 45, cv::Scalar(20), cv::FILLED);
+  cv::GaussianBlur(lightness, lightness, {}, 12);
+  cv::circle(lightness, {100, 100}, 40, cv::Scalar(40), 3, cv::LINE_AA);
+  cv::GaussianBlur(lightness, lightness, {}, 0.7);
+  const cv::Mat chroma = cv::Mat::zeros(lightness.size(), CV_32FC1);
+  cv::Mat lab;
+  cv::merge(std::vector<cv::Mat>{lightness, chroma, chroma}, lab);
+  return lab;
+}
+
+TEST(FloodLevels, WallInWhatIsSharplyOutlinedWhateverItsColour) {
+  const cv::Mat lab = DiscAndCloud();
+  const cv::Mat levels = FloodLevels(lab, cv::Mat::zeros(lab.size(), CV_32FC1), {}, 3);
+  const float outside = levels.at<float>(20, 200);
+  const float disc = levels.at<float>(100, 100);
+  const float cloud = levels.at<float>(100, 300);
+  EXPECT_GT(disc, 10 * outside);
+  EXPECT_LT(cloud, 0.2F * disc);
+}
+
+TEST(FloodLevels, AreZeroWhereNothingIsToBeLookedAt) {
+  const cv::Mat lab = DiscAndCloud();
+  cv::Mat ignore = cv::Mat::zeros(lab.size(), CV_8UC1);
+  ignore(cv::Rect(50, 50, 100, 100)).setTo(255);
+  const cv::Mat levels = FloodLevels(lab, cv::Mat::zeros(lab.size(), CV_32FC1), ignore, 3);
+  EXPECT_EQ(levels.at<float>(100, 100), 0);
+}
+
+// A rod with two rings at its left end; `gap_px` parts it from the right end on.
+cv::Mat RodWithRings(int gap_px) {
+  cv::Mat mask = cv::Mat::zeros(300, 600, CV_8UC1);
+  const std::vector<cv::Point> rod{{120, 138}, {560, 146}, {560, 154}, {120, 162}};
+  cv::fillConvexPoly(mask, rod, 255);
+  for (const int y : {115, 185}) cv::circle(mask, {90, y}, 38, 255, 10);
+  if (gap_px > 0) {
+    const std::vector<cv::Point> gap{{300, 150}, {561, 150 - gap_px}, {561, 150 + gap_px}};
+    cv::fillConvexPoly(mask, gap, 0);
+  }
+  return mask;
+}
+
+TEST(LooksClosed, IsARodWithRings) {
+  const cv::Mat mask = RodWithRings(0);
+  EXPECT_TRUE(LooksClosed(FindSilhouettes(mask, 1).front()));
+  cv::Mat turned;
+  cv::rotate(mask, turned, cv::ROTATE_90_COUNTERCLOCKWISE);
+  EXPECT_TRUE(LooksClosed(FindSilhouettes(turned, 1).front()));
+}
+
+TEST(LooksClosed, IsNotARodThatParts) {
+  cv::Mat mask = cv::Mat::zeros(300, 600, CV_8UC1);
+  for (const int sign : {-1, 1}) {
+    const std::vector<cv::Point> blade{
+        {290, 150 - 12 * sign}, {560, 150 + 60 * sign}, {290, 150 + 12 * sign}};
+    cv::fillConvexPoly(mask, blade, 255);
+    cv::circle(mask, {90, 150 + 35 * sign}, 38, 255, 10);
+    cv::line(mask, {120, 150 + 20 * sign}, {300, 150}, 255, 14);
+  }
+  EXPECT_FALSE(LooksClosed(FindSilhouettes(mask, 1).front()));
+}
+
+TEST(LooksClosed, IsNotARodThatRunsOutOfThePicture) {
+  const cv::Mat cut = RodWithRings(0)(cv::Rect(0, 0, 450, 300)).clone();
+  EXPECT_FALSE(LooksClosed(FindSilhouettes(cut, 1).front()));
+}
+
+TEST(FindScene, RefusesClosedScissorsByThatReason) {
+  SceneSpec spec = SmallScene();
+  spec.theta_rad = -8 * kDegree;  // the edges have passed each other
+  EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "closed");
+}
+
+TEST(FindScene, RefusesAnEmptySheet) {
+  SceneSpec spec = SmallScene();
+  spec.with_scissors = false;
+  EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "not_scissors");
+}
+
+TEST(FindScene, RefusesTipsThatAreCutOff) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const double tip = std::min(photo.truth.upper.end_px.x(), photo.truth.lower.end_px.x());
+  const int width =
+      static_cast<int>(photo.truth.pivot_px.x() + 0.75 * (tip - photo.truth.pivot_px.x()));
+  EXPECT_EQ(ReasonFor(photo.bgr(cv::Rect(0, 0, width, photo.bgr.rows)).clone()),
+            "blades_not_visible");
+}
+
+TEST(FindScene, RefusesTwoPairsOfScissors) {
+  const cv::Mat one = RenderScene(SmallScene()).bgr;
+  cv::Mat two;
+  cv::vconcat(one, one, two);
+  EXPECT_EQ(ReasonFor(two), "several_scissors");
+}
+
+TEST(FindScene, MeasuresOnEveryBackdrop) {
+  for (const Backdrop backdrop : {Backdrop::kPaper,
+                                  Backdrop::kCloth,
+                                  Backdrop::kDrape,
+                                  Backdrop::kWood,
+                                  Backdrop::kBlack,
+                                  Backdrop::kLightTable,
+                                  Backdrop::kCutOut}) {
+    SceneSpec spec = SmallScene();
+    spec.backdrop = backdrop;
+    EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "") << "backdrop " << static_cast<int>(backdrop);
+  }
+}
+
+}  // namespace
+}  // namespace bladecurve
