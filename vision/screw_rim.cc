@@ -9,25 +9,22 @@
 #include <numeric>
 #include <vector>
 
+#include "vision/robust_statistics.h"
+#include "vision/screw_profiles.h"
+
 namespace bladecurve {
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Vector5d = Eigen::Matrix<double, 5, 1>;
 using Matrix5d = Eigen::Matrix<double, 5, 5>;
 
-constexpr int kFewestProfiles = 24;
-constexpr double kTapPx = 0.5;              // spacing along a profile
-constexpr double kShrink = 0.8;             // of the profiles from one iteration to the next
-constexpr double kMostRelativeShift = 0.6;  // of half a profile: a larger one is an extrapolation
-constexpr double kTukeySigmas = 4.0;        // beyond: something else than the rim
-constexpr double kLeastScatterPx = 0.02;    // keeps the biweight open on perfect pictures
-constexpr double kLeastCorrelation = 0.2;   // profiles less alike the common one have no weight
-constexpr double kRimCorrelation = 0.6;     // profiles more alike count as rim seen
-constexpr double kRimLeastStrength = 0.1;   // of the median: fainter is noise that happens to fit
+constexpr double kShrink = 0.8;            // of the profiles from one iteration to the next
+constexpr double kTukeySigmas = 4.0;       // beyond: something else than the rim
+constexpr double kLeastScatterPx = 0.02;   // keeps the biweight open on perfect pictures
+constexpr double kLeastCorrelation = 0.2;  // profiles less alike the common one have no weight
+constexpr double kRimCorrelation = 0.6;    // profiles more alike count as rim seen
+constexpr double kRimLeastStrength = 0.1;  // of the median: fainter is noise that happens to fit
 // How near to the ellipse a rim point must be, of the radius and at least.
 constexpr double kRimRelativeWidth = 0.06, kRimLeastWidthPx = 0.5;
-constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
 // F(2, 14) over chi^2(2)/2 at 95 %: so few blocks scatter themselves.
 constexpr double kFewBlocks = 1.25;
 constexpr std::size_t kBlocks = 24;       // of the rim, taken as independent in the covariance
@@ -39,162 +36,6 @@ constexpr double kLeastOfStart = 0.5, kMostOfStart = 1.6;
 // Weight of "no change", in profiles: keeps the equations solvable where hardly any rim is seen.
 const Vector5d kDamping(1e-6, 1e-6, 1e-2, 1e-2, 1e-2);
 
-struct Profiles {
-  Rows values;                     // one profile a row
-  Eigen::VectorXd t;               // px along the normal, outwards
-  Eigen::VectorXd window;          // weights of the taps
-  std::vector<Eigen::Vector2d> u;  // of each profile: rim.PointAt(u)
-  std::vector<Vector5d>
-      jacobian;  // d(displacement along the normal)/d(center x, y, shape xx, xy, yy)
-};
-
-double Bilinear(const cv::Mat& picture, double x, double y) {
-  x = std::clamp(x, 0.0, picture.cols - 1.001);
-  y = std::clamp(y, 0.0, picture.rows - 1.001);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const double right = x - column, down = y - row;
-  const float* upper = picture.ptr<float>(row) + column;
-  const float* lower = picture.ptr<float>(row + 1) + column;
-  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
-         down * ((1 - right) * lower[0] + right * lower[1]);
-}
-
-Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
-  const Eigen::ArrayXd relative = (t.array() / half_px).square();  // 0.2 at the ends
-  const Eigen::ArrayXd exponent = flat ? Eigen::ArrayXd(relative.pow(4)) : relative;
-  return (-1.6 * exponent).exp();
-}
-
-Profiles SampleProfiles(const cv::Mat& picture,
-                        const RimEllipse& rim,
-                        double half_px,
-                        int most_profiles,
-                        bool flat_window) {
-  const double perimeter = 2 * std::numbers::pi * rim.MeanRadius();
-  const int count = std::clamp(static_cast<int>(perimeter), kFewestProfiles, most_profiles);
-  const int half_taps = static_cast<int>(std::ceil(half_px / kTapPx));
-  const int taps = 2 * half_taps + 1;
-  Profiles profiles;
-  profiles.values.resize(count, taps);
-  profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
-  profiles.window = Window(profiles.t, half_px, flat_window);
-  const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count;
-    const Eigen::Vector2d u(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2d n = (inverse_shape * u).normalized(), p = rim.PointAt(u);
-    for (int k = 0; k < taps; ++k) {
-      const Eigen::Vector2d q = p + profiles.t[k] * n;
-      profiles.values(i, k) = Bilinear(picture, q.x(), q.y());
-    }
-    profiles.u.push_back(u);
-    Vector5d row;
-    row << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(), n.y() * u.y();
-    profiles.jacobian.push_back(row);
-  }
-  return profiles;
-}
-
-// Takes mean and slope out of every profile: shading says nothing about the place of the rim.
-Rows WithoutTrend(const Profiles& profiles) {
-  const Eigen::VectorXd& w = profiles.window;
-  const Eigen::VectorXd wt =
-      w.cwiseProduct(profiles.t);  // the window is even: constant and slope are orthogonal
-  const Eigen::VectorXd mean = profiles.values * w / w.sum();
-  const Eigen::VectorXd slope = profiles.values * wt / wt.dot(profiles.t);
-  return profiles.values - mean * Eigen::RowVectorXd::Ones(w.size()) -
-         slope * profiles.t.transpose();
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-struct CommonShape {
-  Eigen::VectorXd value, derivative;  // over the taps; weighted norm of `value` is 1
-  double center_px = 0;               // where along the profile its structure lies
-};
-
-// The dominant principal component of the profiles, each scaled so that a glint has no more say
-// than others.
-std::optional<CommonShape> FindCommonShape(const Profiles& profiles, const Rows& detrended) {
-  const Eigen::VectorXd root_window = profiles.window.cwiseSqrt();
-  const Eigen::VectorXd norms = (detrended * root_window.asDiagonal()).rowwise().norm();
-  const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
-  const Rows scaled = (norms.array() + typical).inverse().matrix().asDiagonal() * detrended *
-                      root_window.asDiagonal();
-  const Eigen::MatrixXd covariance = scaled.transpose() * scaled;
-  Eigen::VectorXd component = scaled.colwise().mean().transpose();
-  for (int round = 0; round < 4 && component.norm() > 1e-12; ++round) {
-    component = covariance * component.normalized();
-  }
-  if (!(component.norm() > 1e-12)) return std::nullopt;
-  CommonShape shape;
-  shape.value = component.normalized().cwiseQuotient(root_window);
-  const Eigen::Index last = shape.value.size() - 1;
-  shape.derivative.resize(last + 1);
-  for (Eigen::Index k = 0; k <= last; ++k) {
-    const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, last);
-    shape.derivative[k] = (shape.value[after] - shape.value[before]) / (kTapPx * (after - before));
-  }
-  // The slope taken out of the profiles is put back: most taps lie on level ground.
-  const double level = Median({shape.derivative.data(), shape.derivative.data() + last + 1});
-  const Eigen::VectorXd energy =
-      profiles.window.array() * (shape.derivative.array() - level).square();
-  shape.center_px = energy.dot(profiles.t) / energy.sum();
-  return shape;
-}
-
-struct Match {
-  double shift_px = 0;     // of the rim from the ellipse, along the normal
-  double amplitude = 0;    // of the common shape; negative where light and dark are exchanged
-  double correlation = 0;  // with the common shape, after smoothing along the rim
-  double strength = 0;     // amplitude after that smoothing
-};
-
-// Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
-std::vector<Match> MatchProfiles(const Profiles& profiles,
-                                 const Rows& detrended,
-                                 const CommonShape& shape) {
-  const auto count = static_cast<int>(detrended.rows());
-  const Eigen::Index taps = detrended.cols();
-  Eigen::MatrixXd basis(taps, 4);
-  basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
-  const Eigen::MatrixXd weighted = profiles.window.asDiagonal() * basis;
-  const Eigen::Matrix4d normal = basis.transpose() * weighted;
-  const Rows solution = detrended * weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity());
-
-  const double sigma = std::max(0.7, kSmoothingTurns * count);
-  const int reach = static_cast<int>(std::ceil(2.5 * sigma));
-  std::vector<double> kernel(static_cast<std::size_t>(reach) + 1);
-  double kernel_sum = -1;
-  for (int k = 0; k <= reach; ++k) {
-    kernel[static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / (sigma * sigma));
-    kernel_sum += 2 * kernel[static_cast<std::size_t>(k)];
-  }
-  const Eigen::VectorXd windowed_shape = profiles.window.cwiseProduct(shape.value);
-  const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
-  std::vector<Match> matches(static_cast<std::size_t>(count));
-  Eigen::RowVectorXd smooth(taps);
-  for (int i = 0; i < count; ++i) {
-    smooth = detrended.row(i);
-    for (int k = 1; k <= reach; ++k) {
-      smooth += kernel[static_cast<std::size_t>(k)] *
-                (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
-    }
-    Match& match = matches[static_cast<std::size_t>(i)];
-    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * kernel_sum;
-    match.correlation = smooth.dot(windowed_shape) / norm;
-    match.strength = smooth.dot(windowed_shape) / kernel_sum;
-    match.amplitude = solution(i, 2);
-    const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
-    match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
-  }
-  return matches;
-}
-
 // A robust fit of a small change of the ellipse to the shifts.
 struct Update {
   Vector5d change = Vector5d::Zero();  // of center x, y, shape xx, xy, yy
@@ -203,7 +44,7 @@ struct Update {
 };
 
 // What a profile may say at most: little where it looks unlike the rim or is faint.
-double PriorWeight(const Match& match, double typical_amplitude) {
+double PriorWeight(const RimMatch& match, double typical_amplitude) {
   const double likeness = std::max(0.0, match.correlation - kLeastCorrelation);
   const double strength = match.amplitude / typical_amplitude;
   return likeness * std::min(1.0, strength * strength);
@@ -219,7 +60,7 @@ double BiweightSlope(double z) { return std::abs(z) < 1 ? (1 - z * z) * (1 - 5 *
 // A^-1 (sum_b g_b g_b^T + (g_b g_{b+1}^T + g_{b+1} g_b^T)/2) A^-1. The fit has taken 5 degrees of
 // freedom out of the B blocks, which costs B/(B - 5 (1 + cos(2 pi/B))). The slope share squared is
 // due to any M-estimator (Huber 1981, 6.3).
-Eigen::Matrix2d CenterCovariance(const Profiles& profiles,
+Eigen::Matrix2d CenterCovariance(const RimProfiles& profiles,
                                  const Update& update,
                                  const Matrix5d& normal,
                                  double slope_share) {
@@ -260,8 +101,8 @@ Expectation ExpectRound(const RimEllipse& rim, double flattening_px) {
   return round;
 }
 
-Update FitShifts(const Profiles& profiles,
-                 const std::vector<Match>& matches,
+Update FitShifts(const RimProfiles& profiles,
+                 const std::vector<RimMatch>& matches,
                  const Expectation& expected) {
   const std::size_t count = matches.size();
   std::vector<double> amplitudes(count), residuals(count);
@@ -308,7 +149,7 @@ Update FitShifts(const Profiles& profiles,
   return update;
 }
 
-void RateSupport(const std::vector<Match>& matches,
+void RateSupport(const std::vector<RimMatch>& matches,
                  const Update& update,
                  double radius,
                  RimFit& fit) {
@@ -353,14 +194,14 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
   double half_px = options.first_half_px;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const bool settling = 2 * iteration < options.iterations;  // half the profiles will do
-    const Profiles profiles = SampleProfiles(
-        picture, fit.rim, half_px, options.most_profiles / (settling ? 2 : 1), options.flat_window);
-    const Rows detrended = WithoutTrend(profiles);
-    const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
-    if (!shape) return std::nullopt;
-    const std::vector<Match> matches = MatchProfiles(profiles, detrended, *shape);
+    const RimProfiles profiles =
+        SampleProfiles(picture,
+                       fit.rim,
+                       {half_px, options.most_profiles / (settling ? 2 : 1), options.flat_window});
+    const std::optional<std::vector<RimMatch>> matches = MatchProfiles(profiles);
+    if (!matches) return std::nullopt;
     Update update = FitShifts(
-        profiles, matches, ExpectRound(fit.rim, options.expected_flattening * start_radius));
+        profiles, *matches, ExpectRound(fit.rim, options.expected_flattening * start_radius));
     const double most_change = half_px / 2;  // what lies further off has not been seen
     const double change = update.change.head<2>().norm();
     if (change > most_change) update.change *= most_change / change;
@@ -370,7 +211,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
       return std::nullopt;
     }
     fit.center_covariance = update.center_covariance;
-    RateSupport(matches, update, start_radius, fit);
+    RateSupport(*matches, update, start_radius, fit);
     if (!settling && fit.support < options.hopeless_support) return std::nullopt;
     if (!settling && half_px <= options.last_half_px && update.change.norm() < options.converged_px)
       break;

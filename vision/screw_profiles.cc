@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/screw_profiles.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "vision/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr int kFewestProfiles = 24;
+constexpr double kTapPx = 0.5;                // spacing along a profile
+constexpr double kMostRelativeShift = 0.6;    // of half a profile: a larger one is an extrapolation
+constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
+
+double Bilinear(const cv::Mat& picture, double x, double y) {
+  x = std::clamp(x, 0.0, picture.cols - 1.001);
+  y = std::clamp(y, 0.0, picture.rows - 1.001);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const double right = x - column, down = y - row;
+  const float* upper = picture.ptr<float>(row) + column;
+  const float* lower = picture.ptr<float>(row + 1) + column;
+  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
+         down * ((1 - right) * lower[0] + right * lower[1]);
+}
+
+Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
+  const Eigen::ArrayXd relative = (t.array() / half_px).square();  // 0.2 at the ends
+  const Eigen::ArrayXd exponent = flat ? Eigen::ArrayXd(relative.pow(4)) : relative;
+  return (-1.6 * exponent).exp();
+}
+
+// Takes mean and slope out of every profile: shading says nothing about the place of the rim.
+Rows WithoutTrend(const RimProfiles& profiles) {
+  const Eigen::VectorXd& w = profiles.window;
+  const Eigen::VectorXd wt =
+      w.cwiseProduct(profiles.t);  // the window is even: constant and slope are orthogonal
+  const Eigen::VectorXd mean = profiles.values * w / w.sum();
+  const Eigen::VectorXd slope = profiles.values * wt / wt.dot(profiles.t);
+  return profiles.values - mean * Eigen::RowVectorXd::Ones(w.size()) -
+         slope * profiles.t.transpose();
+}
+
+struct CommonShape {
+  Eigen::VectorXd value, derivative;  // over the taps; weighted norm of `value` is 1
+  double center_px = 0;               // where along the profile its structure lies
+};
+
+// The dominant principal component of the profiles, each scaled so that a glint has no more say
+// than others.
+std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Rows& detrended) {
+  const Eigen::VectorXd root_window = profiles.window.cwiseSqrt();
+  const Eigen::VectorXd norms = (detrended * root_window.asDiagonal()).rowwise().norm();
+  const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
+  const Rows scaled = (norms.array() + typical).inverse().matrix().asDiagonal() * detrended *
+                      root_window.asDiagonal();
+  const Eigen::MatrixXd covariance = scaled.transpose() * scaled;
+  Eigen::VectorXd component = scaled.colwise().mean().transpose();
+  for (int round = 0; round < 4 && component.norm() > 1e-12; ++round) {
+    component = covariance * component.normalized();
+  }
+  if (!(component.norm() > 1e-12)) return std::nullopt;
+  CommonShape shape;
+  shape.value = component.normalized().cwiseQuotient(root_window);
+  const Eigen::Index last = shape.value.size() - 1;
+  shape.derivative.resize(last + 1);
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, last);
+    shape.derivative[k] = (shape.value[after] - shape.value[before]) / (kTapPx * (after - before));
+  }
+  // The slope taken out of the profiles is put back: most taps lie on level ground.
+  const double level = Median({shape.derivative.data(), shape.derivative.data() + last + 1});
+  const Eigen::VectorXd energy =
+      profiles.window.array() * (shape.derivative.array() - level).square();
+  shape.center_px = energy.dot(profiles.t) / energy.sum();
+  return shape;
+}
+
+// Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
+std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
+                                   const Rows& detrended,
+                                   const CommonShape& shape) {
+  const auto count = static_cast<int>(detrended.rows());
+  const Eigen::Index taps = detrended.cols();
+  Eigen::MatrixXd basis(taps, 4);
+  basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
+  const Eigen::MatrixXd weighted = profiles.window.asDiagonal() * basis;
+  const Eigen::Matrix4d normal = basis.transpose() * weighted;
+  const Rows solution = detrended * weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity());
+
+  const double sigma = std::max(0.7, kSmoothingTurns * count);
+  const int reach = static_cast<int>(std::ceil(2.5 * sigma));
+  std::vector<double> kernel(static_cast<std::size_t>(reach) + 1);
+  double kernel_sum = -1;
+  for (int k = 0; k <= reach; ++k) {
+    kernel[static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / (sigma * sigma));
+    kernel_sum += 2 * kernel[static_cast<std::size_t>(k)];
+  }
+  const Eigen::VectorXd windowed_shape = profiles.window.cwiseProduct(shape.value);
+  const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
+  std::vector<RimMatch> matches(static_cast<std::size_t>(count));
+  Eigen::RowVectorXd smooth(taps);
+  for (int i = 0; i < count; ++i) {
+    smooth = detrended.row(i);
+    for (int k = 1; k <= reach; ++k) {
+      smooth += kernel[static_cast<std::size_t>(k)] *
+                (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
+    }
+    RimMatch& match = matches[static_cast<std::size_t>(i)];
+    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * kernel_sum;
+    match.correlation = smooth.dot(windowed_shape) / norm;
+    match.strength = smooth.dot(windowed_shape) / kernel_sum;
+    match.amplitude = solution(i, 2);
+    const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
+    match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
+  }
+  return matches;
+}
+
+}  // namespace
+
+RimProfiles SampleProfiles(const cv::Mat& picture,
+                           const RimEllipse& rim,
+                           const RimSampling& sampling) {
+  const double perimeter = 2 * std::numbers::pi * rim.MeanRadius();
+  const int count =
+      std::clamp(static_cast<int>(perimeter), kFewestProfiles, sampling.most_profiles);
+  const int half_taps = static_cast<int>(std::ceil(sampling.half_px / kTapPx));
+  const int taps = 2 * half_taps + 1;
+  RimProfiles profiles;
+  profiles.values.resize(count, taps);
+  profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
+  profiles.window = Window(profiles.t, sampling.half_px, sampling.flat_window);
+  const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    const Eigen::Vector2d u(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d n = (inverse_shape * u).normalized(), p = rim.PointAt(u);
+    for (int k = 0; k < taps; ++k) {
+      const Eigen::Vector2d q = p + profiles.t[k] * n;
+      profiles.values(i, k) = Bilinear(picture, q.x(), q.y());
+    }
+    profiles.u.push_back(u);
+    Vector5d row;
+    row << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(), n.y() * u.y();
+    profiles.jacobian.push_back(row);
+  }
+  return profiles;
+}
+
+std::optional<std::vector<RimMatch>> MatchProfiles(const RimProfiles& profiles) {
+  const Rows detrended = WithoutTrend(profiles);
+  const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
+  if (!shape) return std::nullopt;
+  return MatchToShape(profiles, detrended, *shape);
+}
+
+}  // namespace bladecurve
