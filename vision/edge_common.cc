@@ -55,6 +55,19 @@ double BloomSigma(const EdgeFit& fit, bool blur_known) {
          std::sqrt(TotalBlurVariance(fit.blur_px));
 }
 
+// Light that slopes beside the edge is continued to it as a straight line, or a parabola: a third
+// of what it changes within reach may be wrong, and moves the half-way level.
+double SlopeSigma(const EdgeFit& fit) {
+  constexpr double kReach = 5, kWrong = 0.35;  // px; share
+  std::vector<double> relative;
+  for (size_t i = 0; i < fit.slices.size(); i += kStride) {
+    const EdgeSlice& slice = fit.slices[i];
+    if (slice.contrast != 0) relative.push_back(std::abs(slice.slope / slice.contrast));
+  }
+  const double wrong = kWrong * kReach * Median(std::move(relative));
+  return wrong * std::sqrt(0.5 * std::numbers::pi * TotalBlurVariance(fit.blur_px));
+}
+
 // Nothing for a rival that is much worse; for one that is as good, most of the way to it: over
 // rendered scenes the rival is then the border almost every other time.
 double RivalSigma(const ChosenTransition& chosen) {
@@ -72,7 +85,7 @@ double CommonSigma(const EdgeFit& fit,
   const std::vector<Levels> levels = SomeLevels(fit);
   return std::hypot(ToneSigma(levels, fit.blur_px, tone.gamma_sigma),
                     BloomSigma(fit, blur_known),
-                    RivalSigma(chosen));
+                    std::hypot(RivalSigma(chosen), SlopeSigma(fit)));
 }
 
 }  // namespace bladecurve

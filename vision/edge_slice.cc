@@ -94,6 +94,7 @@ EdgeSlice SolveSlice(std::span<const PreparedPixel> pixels,
   slice.offset_px = found[0];
   slice.contrast = contrast + found[2] - found[1];
   slice.ground = levels[kGround] + found[2];
+  slice.slope = std::hypot(levels[kBladeSlope], levels[kGroundSlope]);
   slice.sigma_px = information > 0 && std::isfinite(information)
                        ? 1 / std::sqrt(information * kept)
                        : std::numeric_limits<double>::infinity();

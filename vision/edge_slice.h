@@ -24,6 +24,7 @@ struct EdgeSlice {
   double sigma_px = 0;   // from the pixels' noise, the levels paid for
   double contrast = 0;   // background minus blade
   double ground = 0;     // background at the edge
+  double slope = 0;      // of the light beside the edge, both sides together, per px
 };
 
 // How far blade and background of one slice stray from the levels of their window, standard

@@ -180,6 +180,7 @@ TEST(LocateEdge, TheBordersOfASoftShadowIsNotTheBlades) {
     const LocatedEdge edge = LocateEdge(
         testing::Stored(light, 1.5, 1, random), testing::GammaCurve(1), GuessOf(line, 2, 4));
     EXPECT_NEAR(MeanOffset(edge, line).mean, 0, 0.15);  // the shadow is no parabola
+    EXPECT_LT(std::abs(MeanOffset(edge, line).mean), 2 * edge.common_sigma_px);
   }
 }
 
