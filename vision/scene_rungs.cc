@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scene_rungs.h"
 
+#include <algorithm>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
@@ -12,8 +13,18 @@ namespace bladecurve {
 namespace {
 
 // In units of the background's scatter. Below 2 it is all background, above 64 nothing is left of
-// most blades.
-constexpr double kThresholds[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+// most blades. The likely ones first.
+constexpr double kThresholds[] = {8, 16, 4, 24, 6, 12, 3, 32, 2, 48, 64};
+
+// So many thresholds show the same good blades that more of them would change nothing.
+bool Settled(const std::vector<Candidate>& candidates) {
+  constexpr int kEnough = 5;
+  constexpr double kGood = 0.9;
+  constexpr double kSharp = 0.5;
+  return std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) {
+    return c.agreeing >= kEnough && c.pair.quality >= kGood && c.sharpness >= kSharp;
+  });
+}
 
 Rung ThresholdAll(const cv::Mat& distance,
                   const cv::Mat& hidden,
@@ -26,12 +37,13 @@ Rung ThresholdAll(const cv::Mat& distance,
   Rung rung;
   rung.distance = distance;
   for (const double threshold : kThresholds) {
-    if (threshold > most) break;
+    if (threshold > most) continue;
     Candidate at_threshold = like;
     at_threshold.threshold = threshold;
     CollectFrom(MaskAbove(smooth, threshold), at_threshold, hidden, hints, &rung);
+    CountAgreeing(&rung.candidates);
+    if (Settled(rung.candidates)) break;
   }
-  CountAgreeing(&rung.candidates);
   return rung;
 }
 

@@ -46,7 +46,7 @@ struct SceneView {
   [[nodiscard]] cv::Mat MarkerMask(const ScaledImage& at) const;
 };
 
-// Lightness, longest side `longest` px.
+// Lightness, longest side about `longest` px; a few px of the border may be left out.
 [[nodiscard]] ScaledImage SmallGrey(const SceneView& view, int longest);
 
 struct ColourPictures {
