@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "vision/card.h"
+#include "vision/card_scene.h"
 #include "vision/png_writer.h"
 #include "vision/render.h"
 #include "vision/scale.h"
@@ -25,24 +26,6 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-
-// The card lying under the camera, its middle in the middle of the picture.
-SceneSpec OnCard(const Card& card, double tilt_rad) {
-  SceneSpec scene;
-  scene.width = 1800;
-  scene.height = 1350;
-  scene.camera = {.mm_per_px = 0.2, .distance_mm = 420, .tilt_rad = tilt_rad, .k1 = -0.02};
-  scene.camera.tilt_azimuth_rad = 0.7;
-  scene.pivot_mm = {-45, 0};  // the rings lie on markers at the border
-  const Vector2d middle_mm(0.5 * card.width_mm, 0.5 * card.height_mm);
-  for (const Card::Marker& marker : card.markers) {
-    scene.markers.push_back({.id = marker.id,
-                             .size_mm = card.marker_mm,
-                             .center_mm = marker.centre_mm - middle_mm,
-                             .margin_mm = 3});
-  }
-  return scene;
-}
 
 Photo Save(const RenderedPhoto& photo, const std::string& name) {
   const fs::path path = fs::path(testing::TempDir()) / name;
@@ -61,27 +44,6 @@ fs::path SaveCalibration(const SceneTruth& truth, const std::string& name) {
   const fs::path path = fs::path(testing::TempDir()) / name;
   std::ofstream(path) << calibration;
   return path;
-}
-
-Vector2d Image(const CameraTruth& camera, const Eigen::Vector3d& world_mm) {
-  const Eigen::Vector3d p = camera.camera_from_world * world_mm + camera.world_in_camera_mm;
-  const Vector2d ideal = p.head<2>() / p.z();
-  return camera.k(0, 0) * ideal * (1 + camera.k1 * ideal.squaredNorm()) +
-         camera.k.block<2, 1>(0, 2);
-}
-
-// Of lengths of 100 mm at that height, lying in several places and directions within the card.
-double WorstOf100Mm(const PlaneMap& map, const CameraTruth& camera, double height_mm) {
-  const std::vector<std::pair<Vector2d, Vector2d>> lengths = {
-      {{-50, 0}, {50, 0}}, {{0, -50}, {0, 50}}, {{-100, -40}, {-20, 20}}, {{10, 40}, {110, 40}}};
-  double worst = 0;
-  for (const auto& [from, to] : lengths) {
-    const auto seen = [&](const Vector2d& mm) {
-      return map.PlaneFromImage(Image(camera, {mm.x(), mm.y(), height_mm}));
-    };
-    worst = std::max(worst, std::abs((seen(to) - seen(from)).norm() - (to - from).norm()));
-  }
-  return worst;
 }
 
 bool Warns(const ScaleResult& result, const std::string& code) {
@@ -194,8 +156,8 @@ TEST(FootOf, FindsThePlaceBelowARaisedPoint) {
   options.camera = seen.calibration;
   const ScaleResult result = FindScale(seen.photo, options);
   ASSERT_TRUE(result.sheet.has_value());
-  const Vector2d head_px = Image(seen.truth.camera, {20, 10, 4});
-  const Vector2d foot_px = Image(seen.truth.camera, {20, 10, 2});
+  const Vector2d head_px = ImageOf(seen.truth.camera, {20, 10, 4});
+  const Vector2d foot_px = ImageOf(seen.truth.camera, {20, 10, 2});
   ASSERT_GT((head_px - foot_px).norm(), 2);
   const PlacePx foot = FootOf(*result.sheet, {head_px, 2, 2, 0.5});
   EXPECT_LT((foot.point_px - foot_px).norm(), 0.02);
