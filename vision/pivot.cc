@@ -88,6 +88,13 @@ Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
   return AlongAcross(major, even_px, std::hypot(even_px, one_sided_px));
 }
 
+// ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
+double Credence(const Screw& screw) {
+  constexpr double kUsualFlattening = 0.05;
+  const double sigmas = (1 - screw.semi_minor_px / screw.semi_major_px) / kUsualFlattening;
+  return screw.evidence - 0.5 * sigmas * sigmas;
+}
+
 // A near look first: fewer other arcs compete. Where that leaves doubts, all along the overlap,
 // where joints put their screws: a fifth to three fifths of the way from the shanks' crotch to the
 // blades'; the clearest counts.
@@ -111,7 +118,7 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
     search.radius_px =
         std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
     const std::optional<Screw> screw = FindScrew(grey, tone, search);
-    if (screw && (!clearest || screw->evidence > clearest->evidence)) clearest = screw;
+    if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
   return clearest;
 }
