@@ -214,8 +214,8 @@ std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upp
   std::vector<LocatedEdgePoint> points = lower.used;
   const double own_px = lower.edge.common_sigma_px;
   if (!(own_px > upper_common_px)) return points;
-  const double independent =
-      static_cast<double>(points.size()) / std::max(1.0, lower.edge.correlation_px);
+  const double length_px = (points.back().point_px - points.front().point_px).norm();
+  const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
   const double variance_px2 =
       (own_px * own_px - upper_common_px * upper_common_px) * std::max(1.0, independent);
   for (LocatedEdgePoint& point : points) {
