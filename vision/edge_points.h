@@ -12,9 +12,9 @@ namespace bladecurve {
 
 // One located point of a cutting edge.
 struct EdgePoint {
-  Eigen::Vector2d point_mm;   // in the frame of its EdgePoints
-  Eigen::Vector2d normal;     // unit; points out of the blade, into the gap
-  double sigma_mm = 0;        // standard uncertainty along the normal, of this point by itself
+  Eigen::Vector2d point_mm;  // in the frame of its EdgePoints
+  Eigen::Vector2d normal;    // unit; points out of the blade, into the gap
+  double sigma_mm = 0;       // standard uncertainty along the normal, of this point by itself
 };
 
 // A point that is seen with different certainty in different directions.
@@ -26,20 +26,24 @@ struct LocatedPoint {
 // What one photograph says about a pair of scissors: all that the curve fit needs of it.
 //
 // Frame: mm in the plane of the cutting edges; right-handed as the viewer sees it; origin at the
-// pivot as vision estimates it, +x along the symmetry line towards the tips, +y up when +x is right.
-// The fit refines that pose, so "estimates" suffice; the pivot is therefore near (0, 0).
+// pivot as vision estimates it, +x along the symmetry line towards the tips, +y up when +x is
+// right. The fit refines that pose, so "estimates" suffice; the pivot is therefore near (0, 0).
 struct EdgePoints {
-  std::string photo;                 // the file's name, for messages
-  std::vector<EdgePoint> upper;      // cutting edge of the upper blade, from the crotch to its distal end
-  std::vector<EdgePoint> lower;      // the same of the lower blade; may be empty
-  LocatedPoint pivot;                // the screw, or the pivot inferred from rigid geometry
-  LocatedPoint upper_end, lower_end; // distal ends: where the edge begins to round off into the tip
-  double theta_rad = std::numeric_limits<double>::quiet_NaN();  // opening angle; from the distal ends, or given
+  std::string photo;  // the file's name, for messages
+  std::vector<EdgePoint>
+      upper;  // cutting edge of the upper blade, from the crotch to its distal end
+  std::vector<EdgePoint> lower;  // the same of the lower blade; may be empty
+  LocatedPoint pivot;            // the screw, or the pivot inferred from rigid geometry
+  LocatedPoint upper_end,
+      lower_end;  // distal ends: where the edge begins to round off into the tip
+  double theta_rad =
+      std::numeric_limits<double>::quiet_NaN();  // opening angle; from the distal ends, or given
   double theta_sigma_rad = std::numeric_limits<double>::quiet_NaN();
-  bool theta_given = false;          // the user said it (--theta-deg): then it is an observation of its own
+  bool theta_given = false;  // the user said it (--theta-deg): then it is an observation of its own
   double scale_relative_sigma = 0;   // standard uncertainty of mm per pixel, relative
   double correlation_length_mm = 0;  // neighbouring points closer than this are not independent
-  double common_offset_sigma_mm = 0; // an offset along the normals that all points share (tone curve, bevel)
+  double common_offset_sigma_mm =
+      0;  // an offset along the normals that all points share (tone curve, bevel)
 };
 
 }  // namespace bladecurve
