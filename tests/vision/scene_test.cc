@@ -22,9 +22,16 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+// Tests run side by side: each writes a file of its own.
+fs::path PictureOfThisTest() {
+  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+  return fs::path(testing::TempDir()) /
+         (std::string(test.test_suite_name()) + "." + test.name() + ".png");
+}
+
 // The reason of a refusal, or "" if the picture is measured.
 std::string ReasonFor(const cv::Mat& picture) {
-  const fs::path file = fs::path(testing::TempDir()) / "scene.png";
+  const fs::path file = PictureOfThisTest();
   WritePng(file, picture);
   MeasureOptions options;
   options.scale.mm_per_px = 0.25;

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// The same scissors, whatever is done to the photograph: turned, mirrored, scaled, exposed
+// otherwise, with more noise or without the handles, the measurement says the same within its
+// stated uncertainty. On a rendered photograph, and on real ones where they lie beside the project.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "vision/measure.h"
+#include "vision/photo.h"
+#include "vision/png_writer.h"
+#include "vision/refused.h"
+#include "vision/render.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+namespace fs = std::filesystem;
+
+// What was done to a picture, and where a point of it went.
+struct Change {
+  std::string name;
+  std::function<cv::Mat(const cv::Mat&)> apply;
+  std::function<Vector2d(const Vector2d&, const cv::Size&)> moved;
+};
+
+Vector2d Stays(const Vector2d& p, const cv::Size& /*size*/) { return p; }
+
+Change QuarterTurn() {
+  return {"quarter turn",
+          [](const cv::Mat& picture) {
+            cv::Mat turned;
+            cv::rotate(picture, turned, cv::ROTATE_90_CLOCKWISE);
+            return turned;
+          },
+          [](const Vector2d& p, const cv::Size& size) {
+            return Vector2d(size.height - 1 - p.y(), p.x());
+          }};
+}
+
+Change HalfTurn() {
+  return {"half turn",
+          [](const cv::Mat& picture) {
+            cv::Mat turned;
+            cv::rotate(picture, turned, cv::ROTATE_180);
+            return turned;
+          },
+          [](const Vector2d& p, const cv::Size& size) {
+            return Vector2d(size.width - 1 - p.x(), size.height - 1 - p.y());
+          }};
+}
+
+// About the middle; what comes into the picture from outside is its border.
+Change Turned(double degrees) {
+  const auto matrix = [degrees](const cv::Size& size) {
+    return cv::getRotationMatrix2D(cv::Point2f(static_cast<float>(size.width - 1) / 2,
+                                               static_cast<float>(size.height - 1) / 2),
+                                   degrees,
+                                   1);
+  };
+  return {"turned by " + std::to_string(static_cast<int>(degrees)),
+          [matrix](const cv::Mat& picture) {
+            cv::Mat turned;
+            cv::warpAffine(picture,
+                           turned,
+                           matrix(picture.size()),
+                           picture.size(),
+                           cv::INTER_CUBIC,
+                           cv::BORDER_REPLICATE);
+            return turned;
+          },
+          [matrix](const Vector2d& p, const cv::Size& size) {
+            const cv::Mat m = matrix(size);
+            return Vector2d(
+                m.at<double>(0, 0) * p.x() + m.at<double>(0, 1) * p.y() + m.at<double>(0, 2),
+                m.at<double>(1, 0) * p.x() + m.at<double>(1, 1) * p.y() + m.at<double>(1, 2));
+          }};
+}
+
+Change Mirrored() {
+  return {"mirrored",
+          [](const cv::Mat& picture) {
+            cv::Mat mirrored;
+            cv::flip(picture, mirrored, 1);
+            return mirrored;
+          },
+          [](const Vector2d& p, const cv::Size& size) {
+            return Vector2d(size.width - 1 - p.x(), p.y());
+          }};
+}
+
+Change Scaled(double factor) {
+  return {"scaled by " + std::to_string(factor).substr(0, 4),
+          [factor](const cv::Mat& picture) {
+            cv::Mat scaled;
+            cv::resize(
+                picture, scaled, {}, factor, factor, factor < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+            return scaled;
+          },
+          [factor](const Vector2d& p, const cv::Size& /*size*/) -> Vector2d {
+            return (factor * (p.array() + 0.5) - 0.5).matrix();
+          }};
+}
+
+// In light: one stop is a factor of two before the tone curve.
+Change Exposed(double stops) {
+  return {"exposed by " + std::to_string(static_cast<int>(stops)) + " stop",
+          [stops](const cv::Mat& picture) {
+            cv::Mat table(1, 256, CV_8UC1);
+            for (int value = 0; value < 256; ++value) {
+              const double encoded = value / 255.0;
+              const double light =
+                  encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+              const double more = std::min(1.0, light * std::exp2(stops));
+              const double back =
+                  more <= 0.0031308 ? 12.92 * more : 1.055 * std::pow(more, 1 / 2.4) - 0.055;
+              table.at<uchar>(value) = cv::saturate_cast<uchar>(255 * back);
+            }
+            cv::Mat exposed;
+            cv::LUT(picture, table, exposed);
+            return exposed;
+          },
+          Stays};
+}
+
+Change Noisy(double grey) {
+  return {"noise of " + std::to_string(static_cast<int>(grey)),
+          [grey](const cv::Mat& picture) {
+            std::mt19937 random(7);
+            std::normal_distribution<double> noise(0, grey);
+            cv::Mat noisy = picture.clone();
+            for (int row = 0; row < noisy.rows; ++row) {
+              uchar* values = noisy.ptr(row);
+              for (int k = 0; k < noisy.cols * noisy.channels(); ++k)
+                values[k] = cv::saturate_cast<uchar>(values[k] + noise(random));
+            }
+            return noisy;
+          },
+          Stays};
+}
+
+// Tests run side by side: each writes a file of its own.
+fs::path PictureOfThisTest() {
+  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+  const std::string name = test != nullptr ? test->name() : "suite" + std::to_string(getpid());
+  return fs::path(testing::TempDir()) / ("property." + name + ".png");
+}
+
+PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px) {
+  const fs::path file = PictureOfThisTest();
+  WritePng(file, picture);
+  MeasureOptions options;
+  options.scale.mm_per_px = mm_per_px;
+  return MeasurePhoto(file, options);
+}
+
+// Three standard deviations of the difference of two measurements, and what resampling may shift.
+constexpr double kSigmas = 3;
+constexpr double kResamplingPx = 0.1;
+
+void ExpectSame(const PhotoMeasurement& before,
+                const PhotoMeasurement& after,
+                const Change& change,
+                const cv::Size& size,
+                double factor) {
+  const Vector2d expected = change.moved(before.pivot_px, size);
+  const double pivot_sigma = std::hypot(factor * before.pivot_sigma_px, after.pivot_sigma_px);
+  EXPECT_LT((after.pivot_px - expected).norm(), kSigmas * pivot_sigma + kResamplingPx);
+  EXPECT_NEAR(after.theta_rad,
+              before.theta_rad,
+              kSigmas * std::hypot(before.theta_sigma_rad, after.theta_sigma_rad));
+}
+
+SceneSpec PlainScene() {
+  SceneSpec spec;
+  spec.width = 1000;
+  spec.height = 750;
+  spec.camera.mm_per_px = 0.25;
+  spec.theta_rad = 24 * std::numbers::pi / 180;
+  return spec;
+}
+
+class RenderedPhotograph : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    picture_ = new cv::Mat(RenderScene(PlainScene()).bgr);
+    before_ = new PhotoMeasurement(Measure(*picture_, kMmPerPx));
+  }
+  static void TearDownTestSuite() {
+    delete picture_;
+    delete before_;
+  }
+
+  static void ExpectUnmoved(const Change& change, double factor = 1) {
+    SCOPED_TRACE(change.name);
+    const PhotoMeasurement after = Measure(change.apply(*picture_), kMmPerPx / factor);
+    ExpectSame(*before_, after, change, picture_->size(), factor);
+  }
+
+  static constexpr double kMmPerPx = 0.25;
+  static cv::Mat* picture_;
+  static PhotoMeasurement* before_;
+};
+cv::Mat* RenderedPhotograph::picture_ = nullptr;
+PhotoMeasurement* RenderedPhotograph::before_ = nullptr;
+
+TEST_F(RenderedPhotograph, TurnsWithThePicture) {
+  ExpectUnmoved(QuarterTurn());
+  ExpectUnmoved(HalfTurn());
+  for (const double degrees : {-33.0, 11.0}) ExpectUnmoved(Turned(degrees));
+}
+
+TEST_F(RenderedPhotograph, MirrorsWithThePicture) { ExpectUnmoved(Mirrored()); }
+
+TEST_F(RenderedPhotograph, ScalesWithThePicture) {
+  for (const double factor : {0.5, 0.7, 1.4}) ExpectUnmoved(Scaled(factor), factor);
+}
+
+// Enlarged twice, the picture is so soft that the bevel's inner border may pass for the edge: then
+// the result must say that there was another one.
+TEST_F(RenderedPhotograph, ScalesOrIsDoubtedWhenEnlargedTwice) {
+  const Change change = Scaled(2);
+  const PhotoMeasurement after = Measure(change.apply(*picture_), kMmPerPx / 2);
+  const auto& warnings = after.warnings;
+  if (std::find(warnings.begin(), warnings.end(), "upper_edge_ambiguous") != warnings.end()) return;
+  ExpectSame(*before_, after, change, picture_->size(), 2);
+}
+
+TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderAnotherExposure) {
+  ExpectUnmoved(Exposed(-1));
+  ExpectUnmoved(Exposed(0.4));  // a whole stop would clip the paper
+}
+
+TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderMoreNoise) { ExpectUnmoved(Noisy(5)); }
+
+TEST_F(RenderedPhotograph, KeepsItsMeasuresWithoutTheHandles) {
+  const int cut = static_cast<int>(before_->pivot_px.x() - 0.4 * picture_->cols / 2);
+  ASSERT_GT(cut, 0);
+  ExpectUnmoved({"handles cropped",
+                 [cut](const cv::Mat& picture) {
+                   return picture(cv::Rect(cut, 0, picture.cols - cut, picture.rows)).clone();
+                 },
+                 [cut](const Vector2d& p, const cv::Size& /*size*/) -> Vector2d {
+                   return p - Vector2d(cut, 0);
+                 }});
+}
+
+// The photographs are somebody else's and lie beside the project.
+std::vector<fs::path> RealPhotographs() {
+  const fs::path folder = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos" / "real";
+  std::vector<fs::path> photographs;
+  if (!fs::exists(folder)) return photographs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".jpg" || extension == ".png") photographs.push_back(entry.path());
+  }
+  std::sort(photographs.begin(), photographs.end());
+  return photographs;
+}
+
+// At most 700 px: the properties hold at any size, and a test should not take minutes.
+cv::Mat SmallPicture(const fs::path& file) {
+  const cv::Mat picture = Photo::Load(file).DecodeColour(700);
+  const double factor = std::min(1.0, 700.0 / std::max(picture.cols, picture.rows));
+  cv::Mat small;
+  cv::resize(picture, small, {}, factor, factor, cv::INTER_AREA);
+  return small;
+}
+
+// Where the photograph was measured without doubt about its blades and pivot, every exact change of
+// it must either be refused or agree: a photograph at the edge of what can be seen may tip over,
+// but not into another answer.
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
+  const std::vector<fs::path> photographs = RealPhotographs();
+  if (photographs.empty()) GTEST_SKIP() << "no photographs beside the project";
+  int measured = 0, again = 0, tried = 0;
+  for (const fs::path& file : photographs) {
+    SCOPED_TRACE(file.filename());
+    const cv::Mat picture = SmallPicture(file);
+    try {
+      const PhotoMeasurement before = Measure(picture, 1);
+      ++measured;
+      for (const Change& change : {QuarterTurn(), HalfTurn(), Mirrored()}) {
+        SCOPED_TRACE(change.name);
+        ++tried;
+        try {
+          ExpectSame(before, Measure(change.apply(picture), 1), change, picture.size(), 1);
+          ++again;
+        } catch (const Refused&) {
+          continue;
+        }
+      }
+    } catch (const Refused&) {
+      continue;
+    }
+  }
+  EXPECT_GT(measured, static_cast<int>(photographs.size()) / 2);
+  EXPECT_GE(again, tried * 9 / 10);
+}
+
+}  // namespace
+}  // namespace bladecurve
