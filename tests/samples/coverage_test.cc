@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "process_folder.h"
 #include "samples/validation_run.h"
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
@@ -25,7 +26,7 @@ const std::vector<ValidationRow>& Rows() {
     std::vector<ValidationRow> measured;
     for (int number = 0; number < kScenes; ++number) {
       measured.push_back(ValidateScene(MakeValidationScene(number, kSeed, Difficulty::kStandard),
-                                       std::filesystem::path(testing::TempDir())));
+                                       ProcessFolder()));
     }
     return measured;
   }();

@@ -11,6 +11,7 @@
 #include <set>
 #include <string>
 
+#include "process_folder.h"
 #include "vision/card_drawing.h"
 #include "vision/photo.h"
 #include "vision/png_writer.h"
@@ -47,7 +48,7 @@ cv::Mat Photographed(const Card& card, double dpi) {
 }
 
 Photo Save(const cv::Mat& picture, const std::string& name) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
+  const fs::path path = ProcessFolder() / name;
   WritePng(path, picture);
   return Photo::Load(path);
 }
@@ -91,7 +92,7 @@ TEST(BuiltInCard, HasRoomForInstrumentsAndMarkersOfItsOwn) {
 
 TEST(CardText, ReadsBackTheSame) {
   const Card card = BuiltInCard(Paper::kLetter);
-  const fs::path path = fs::path(testing::TempDir()) / "letter.json";
+  const fs::path path = ProcessFolder() / "letter.json";
   std::ofstream(path) << CardText(card);
   EXPECT_EQ(CardText(ReadCard(path)), CardText(card));
   std::ofstream(path)

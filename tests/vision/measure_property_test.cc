@@ -4,7 +4,6 @@
 // otherwise, with more noise or without the handles, the measurement says the same within its
 // stated uncertainty. On a rendered photograph, and on real ones where they lie beside the project.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "process_folder.h"
 #include "vision/measure.h"
 #include "vision/photo.h"
 #include "vision/png_writer.h"
@@ -151,15 +151,8 @@ Change Noisy(double grey) {
           Stays};
 }
 
-// Tests run side by side: each writes a file of its own.
-fs::path PictureOfThisTest() {
-  const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string name = test != nullptr ? test->name() : "suite" + std::to_string(getpid());
-  return fs::path(testing::TempDir()) / ("property." + name + ".png");
-}
-
 PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px) {
-  const fs::path file = PictureOfThisTest();
+  const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
   MeasureOptions options;
   options.scale.mm_per_px = mm_per_px;

@@ -16,6 +16,7 @@
 // jpeglib.h needs FILE and size_t declared before it.
 #include <jpeglib.h>
 
+#include "process_folder.h"
 #include "vision/png_writer.h"
 #include "vision/refused.h"
 #include "vision/sha256.h"
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path Write(const std::string& name, const std::string& bytes) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
+  const fs::path path = ProcessFolder() / name;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
@@ -110,7 +111,7 @@ fs::path WriteRawPng(const std::string& name,
                      cv::Size size,
                      const PngSettings& settings,
                      std::vector<png_byte> row) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
+  const fs::path path = ProcessFolder() / name;
   std::FILE* const file = std::fopen(path.c_str(), "wb");
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
@@ -156,7 +157,7 @@ TEST(PhotoLoad, RefusesWhatIsNoPicture) {
 
 TEST(PhotoLoad, RefusesTruncatedFilesWhereverTheyEnd) {
   const std::string jpeg = Jpeg(Gradient(320, 240), {});
-  const fs::path png_path = fs::path(testing::TempDir()) / "whole.png";
+  const fs::path png_path = ProcessFolder() / "whole.png";
   WritePng(png_path, Gradient(320, 240));
   std::ifstream stream(png_path, std::ios::binary);
   const std::string png((std::istreambuf_iterator<char>(stream)), {});
@@ -213,7 +214,7 @@ TEST(PhotoLoad, ReadsInksAsLight) {
 }
 
 TEST(PhotoLoad, ReadsTiff) {
-  const fs::path path = fs::path(testing::TempDir()) / "scan.tif";
+  const fs::path path = ProcessFolder() / "scan.tif";
   TIFF* const tiff = TIFFOpen(path.c_str(), "w");
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, 4);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, 2);

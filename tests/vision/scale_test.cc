@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "process_folder.h"
 #include "vision/card.h"
 #include "vision/refused.h"
 #include "vision/sheet_pose.h"
@@ -173,8 +174,7 @@ TEST(FindScale, IsRightOnRenderedPhotographs) {
                                  "DA2_cubic_theta30",
                                  "DA3_cubic_theta50"}) {
     const nlohmann::json truth = TruthOf(name);
-    const ScaleOptions options =
-        OptionsFor(truth, fs::path(testing::TempDir()) / (name + ".camera.json"));
+    const ScaleOptions options = OptionsFor(truth, ProcessFolder() / (name + ".camera.json"));
     const ScaleResult result = FindScale(Photo::Load(Rendered() / (name + ".jpg")), options);
     const double error = std::abs(ScaleError(truth, *result.map));
     EXPECT_LT(error, 4 * result.map->relative_sigma()) << name;

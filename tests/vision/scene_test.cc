@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "process_folder.h"
 #include "vision/closed_shape.h"
 #include "vision/flood.h"
 #include "vision/measure.h"
@@ -22,16 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Tests run side by side: each writes a file of its own.
-fs::path PictureOfThisTest() {
-  const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-  return fs::path(testing::TempDir()) /
-         (std::string(test.test_suite_name()) + "." + test.name() + ".png");
-}
-
 // The reason of a refusal, or "" if the picture is measured.
 std::string ReasonFor(const cv::Mat& picture) {
-  const fs::path file = PictureOfThisTest();
+  const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
   MeasureOptions options;
   options.scale.mm_per_px = 0.25;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "process_folder.h"
 #include "vision/card.h"
 #include "vision/card_scene.h"
 #include "vision/png_writer.h"
@@ -28,7 +29,7 @@ using Eigen::Vector2d;
 constexpr double kDegree = std::numbers::pi / 180;
 
 Photo Save(const RenderedPhoto& photo, const std::string& name) {
-  const fs::path path = fs::path(testing::TempDir()) / name;
+  const fs::path path = ProcessFolder() / name;
   WritePng(path, photo.bgr);
   return Photo::Load(path);
 }
@@ -41,7 +42,7 @@ fs::path SaveCalibration(const SceneTruth& truth, const std::string& name) {
       {"K",
        {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
       {"dist", {truth.camera.k1, 0, 0, 0}}};
-  const fs::path path = fs::path(testing::TempDir()) / name;
+  const fs::path path = ProcessFolder() / name;
   std::ofstream(path) << calibration;
   return path;
 }
