@@ -103,6 +103,14 @@ int MostSpans(const KnotRequest& request, int degree) {
   return std::clamp(supported - degree, 1, kMaxSpans);
 }
 
+// Whether noise alone explains the residuals: chi2 not above its mean by more than its standard
+// deviation. What a knot would then still gain are small biases that neighbouring points share, and
+// a curve that follows them swings beyond the last point.
+bool Explained(const LinearSpline& fit, double effective_points) {
+  const double freedom = std::max(effective_points - fit.space.size(), 1.0);
+  return fit.chi2 < freedom + std::sqrt(2 * freedom);
+}
+
 // Knots one by one; the best by the criterion, or exactly `spans` pieces if that many are asked
 // for.
 LinearSpline Grow(LinearSpline fit, Search& search) {
@@ -160,8 +168,9 @@ LinearSpline Chosen(Search& search) {
     last = search.Try(space);
     if (Bic(last, request.effective_points) < Bic(best, request.effective_points)) best = last;
   }
-  LinearSpline grown = Prune(Grow(std::move(last), search), search);
   const double n = request.effective_points;
+  if (Explained(best, n)) return best;
+  LinearSpline grown = Prune(Grow(std::move(last), search), search);
   return Bic(grown, n) < Bic(best, n) ? grown : best;
 }
 

@@ -24,8 +24,9 @@ struct KnotChoice {
 };
 
 // The spline of lowest degree and fewest knots that the points (sorted by u) need: a line, a
-// parabola, a cubic, then knots one by one where the residuals ask for them, as long as the
-// Bayesian information criterion falls. Every choice meets the Schoenberg-Whitney conditions.
+// parabola, a cubic, then, where noise does not explain what these leave, knots one by one where
+// the residuals ask for them, as long as the Bayesian information criterion falls. Every choice
+// meets the Schoenberg-Whitney conditions.
 [[nodiscard]] KnotChoice ChooseKnots(const std::vector<FlatPoint>& points,
                                      const KnotRequest& request);
 
