@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/screw.h"
-
 namespace bladecurve {
 namespace {
 
@@ -50,6 +48,7 @@ Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
   pivot.source = "geometry";
   const double along = (scene.pivot_px - mirror.point).dot(mirror.direction);
   pivot.point_px = mirror.point + along * mirror.direction;
+  pivot.geometry_px = pivot.point_px;
   // A blade that is not quite the other's mirror image moves the line by a few percent of the
   // shank's width.
   const double across_sigma = std::max(0.5, 0.05 * scene.shank_width_px);
@@ -136,18 +135,20 @@ double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
 }
 
 Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
-  Pivot pivot;
+  Pivot pivot = FromGeometry(search.scene, search.edges);
   if (search.hint_px) {
-    pivot = {*search.hint_px, Eigen::Matrix2d::Identity(), "hint", 0};
+    pivot.point_px = *search.hint_px;
+    pivot.covariance_px2.setIdentity();
+    pivot.source = "hint";
   } else {
-    pivot = FromGeometry(search.scene, search.edges);
-    if (const auto screw = LookForScrew(grey, scale.tone, search.scene, pivot.point_px)) {
-      const PlacePx foot = BelowHead(screw->center_px, scale, search.scene);
-      pivot = {foot.point_px,
-               screw->covariance_px2 + ShadingCovariance(*screw) + foot.covariance_px2,
-               "screw",
-               0};
-    }
+    pivot.screw = LookForScrew(grey, scale.tone, search.scene, pivot.point_px);
+  }
+  if (pivot.screw) {
+    const PlacePx foot = BelowHead(pivot.screw->center_px, scale, search.scene);
+    pivot.point_px = foot.point_px;
+    pivot.covariance_px2 =
+        pivot.screw->covariance_px2 + ShadingCovariance(*pivot.screw) + foot.covariance_px2;
+    pivot.source = "screw";
   }
   pivot.asymmetry = EdgeAsymmetry(search.edges, pivot.point_px);
   return pivot;

@@ -10,6 +10,7 @@
 
 #include "vision/scale.h"
 #include "vision/scene.h"
+#include "vision/screw.h"
 
 namespace bladecurve {
 
@@ -17,8 +18,10 @@ namespace bladecurve {
 struct Pivot {
   Eigen::Vector2d point_px;
   Eigen::Matrix2d covariance_px2;
-  std::string source;    // "screw", "geometry", "hint"
-  double asymmetry = 0;  // see EdgeAsymmetry
+  std::string source;                                     // "screw", "geometry", "hint"
+  double asymmetry = 0;                                   // see EdgeAsymmetry
+  std::optional<Screw> screw;                             // if one is seen
+  Eigen::Vector2d geometry_px = Eigen::Vector2d::Zero();  // where the blades alone put it
 };
 
 // The two cutting edges, from the crotch to the distal end.

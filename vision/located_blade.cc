@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/located_blade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "vision/refused.h"
+#include "vision/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+std::vector<Vector2d> InlierPoints(const LocatedEdge& edge) {
+  std::vector<Vector2d> points;
+  for (const LocatedEdgePoint& p : edge.points) {
+    if (p.inlier) points.push_back(p.point_px);
+  }
+  return points;
+}
+
+// Nearer to the crossing, light of the other blade's edge reaches this one. px.
+double ClearOfCrossing(const LocatedEdge& edge) {
+  const double blur = std::isfinite(edge.blur_px) ? edge.blur_px : 1;
+  return 4 * blur + 2;
+}
+
+// Near the end the windows of the edge fit, 50 px long, reach round the tip and bend the edge. px.
+double SmearedByTip(const std::vector<Vector2d>& points) {
+  constexpr double kSmearedPx = 20, kMostOfEdge = 0.05;
+  if (points.empty()) return 0;
+  return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
+}
+
+}  // namespace
+
+void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
+  const std::vector<Vector2d> points = InlierPoints(blade->edge);
+  const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
+  const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
+  blade->end = FindDistalEnd(
+      photo.grey(),
+      points,
+      {{seen.tip_px, reach_px, seen.width_px, blade->on_left}, MedianSigma(blade->edge.points)});
+  const double clear = ClearOfCrossing(blade->edge);
+  const double smeared = SmearedByTip(points);
+  std::size_t index = 0;
+  for (const LocatedEdgePoint& p : blade->edge.points) {
+    if (!p.inlier) continue;
+    if (index++ >= blade->end.index) break;
+    if ((p.point_px - scene.crotch_px).norm() > clear &&
+        (p.point_px - blade->end.point_px).norm() > smeared) {
+      blade->used.push_back(p);
+    }
+  }
+  constexpr std::size_t kFewest = 20;  // a shorter edge says little about a curve
+  if (blade->used.size() < kFewest) {
+    throw Refused(Reason::kEdgeTooShort,
+                  "edges: only " + std::to_string(blade->used.size()) +
+                      " px of free cutting edge; open the scissors wider or go nearer");
+  }
+}
+
+Matrix2d EndCovariance(const LocatedBlade& blade) {
+  const Vector2d across = blade.used.back().normal;
+  const Vector2d along(-across.y(), across.x());
+  const double across_sigma = std::hypot(blade.used.back().sigma_px, blade.edge.common_sigma_px);
+  return blade.end.along_sigma_px * blade.end.along_sigma_px * along * along.transpose() +
+         across_sigma * across_sigma * across * across.transpose();
+}
+
+std::vector<Vector2d> PointsOf(const LocatedBlade& blade) {
+  std::vector<Vector2d> points;
+  for (const LocatedEdgePoint& p : blade.used) points.push_back(p.point_px);
+  return points;
+}
+
+double MedianSigma(const std::vector<LocatedEdgePoint>& points) {
+  if (points.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sigmas;
+  for (const LocatedEdgePoint& p : points) sigmas.push_back(p.sigma_px);
+  return Median(std::move(sigmas));
+}
+
+std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
+  std::vector<LocatedEdgePoint> points = lower.used;
+  const double own_px = lower.edge.common_sigma_px;
+  if (!(own_px > upper_common_px)) return points;
+  const double length_px = (points.back().point_px - points.front().point_px).norm();
+  const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
+  const double variance_px2 =
+      (own_px * own_px - upper_common_px * upper_common_px) * std::max(1.0, independent);
+  for (LocatedEdgePoint& point : points) {
+    point.sigma_px = std::sqrt(point.sigma_px * point.sigma_px + variance_px2);
+  }
+  return points;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vision/distal_end.h"
+#include "vision/edge.h"
+#include "vision/photo.h"
+#include "vision/scene.h"
+
+namespace bladecurve {
+
+// A cutting edge as located, and where it rounds off into the tip; stored pixels.
+struct LocatedBlade {
+  bool on_left = true;
+  LocatedEdge edge;
+  DistalEnd end;
+  std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
+};
+
+// Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
+// near, and that end. Throws Refused{kEdgeTooShort}.
+void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade);
+
+// Of the distal end: across the edge like a point of it, along the edge as found. px^2.
+[[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade);
+
+// The points used, without their uncertainties.
+[[nodiscard]] std::vector<Eigen::Vector2d> PointsOf(const LocatedBlade& blade);
+
+// NaN for no points.
+[[nodiscard]] double MedianSigma(const std::vector<LocatedEdgePoint>& points);
+
+// The lower edge's points as the fit is to take them: it tells what they share from nothing but
+// what both edges share. Where the lower edge is more doubtful than the upper one, its points
+// become so uncertain that their mean is as doubtful as the edge.
+[[nodiscard]] std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower,
+                                                         double upper_common_px);
+
+}  // namespace bladecurve
