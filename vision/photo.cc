@@ -153,57 +153,58 @@ int Photo::displayed_width() const { return metadata_.orientation < 5 ? grey_.co
 
 int Photo::displayed_height() const { return metadata_.orientation < 5 ? grey_.rows : grey_.cols; }
 
-bool Photo::mirrored() const {
-  const int turn = metadata_.orientation;
-  return turn == 2 || turn == 4 || turn == 5 || turn == 7;
+namespace {
+
+// EXIF 2.3, tag 0x0112, as what turns the stored picture into the displayed one: first flips of its
+// columns and rows, then an exchange of both.
+struct Turn {
+  bool flip_x = false, flip_y = false, exchange = false;
+};
+
+Turn TurnOf(int orientation) {
+  switch (orientation) {
+    case 2:
+      return {true, false, false};
+    case 3:
+      return {true, true, false};
+    case 4:
+      return {false, true, false};
+    case 5:
+      return {false, false, true};
+    case 6:
+      return {false, true, true};
+    case 7:
+      return {true, true, true};
+    case 8:
+      return {true, false, true};
+    default:
+      return {};
+  }
 }
 
-// EXIF 2.3, tag 0x0112: where the displayed picture's left column and top row lie in the stored
-// one.
+Eigen::Vector2d Flipped(const Eigen::Vector2d& stored_px, const Turn& turn, const cv::Size& size) {
+  return {turn.flip_x ? size.width - 1 - stored_px.x() : stored_px.x(),
+          turn.flip_y ? size.height - 1 - stored_px.y() : stored_px.y()};
+}
+
+}  // namespace
+
+bool Photo::mirrored() const {
+  const Turn turn = TurnOf(metadata_.orientation);
+  return turn.flip_x != (turn.flip_y != turn.exchange);
+}
+
 Eigen::Vector2d Photo::DisplayedFromStored(const Eigen::Vector2d& stored_px) const {
-  const double x = stored_px.x(), y = stored_px.y();
-  const double right = grey_.cols - 1, bottom = grey_.rows - 1;
-  switch (metadata_.orientation) {
-    case 2:
-      return {right - x, y};
-    case 3:
-      return {right - x, bottom - y};
-    case 4:
-      return {x, bottom - y};
-    case 5:
-      return {y, x};
-    case 6:
-      return {bottom - y, x};
-    case 7:
-      return {bottom - y, right - x};
-    case 8:
-      return {y, right - x};
-    default:
-      return stored_px;
-  }
+  const Turn turn = TurnOf(metadata_.orientation);
+  const Eigen::Vector2d flipped = Flipped(stored_px, turn, grey_.size());
+  if (turn.exchange) return flipped.reverse();
+  return flipped;
 }
 
 Eigen::Vector2d Photo::StoredFromDisplayed(const Eigen::Vector2d& displayed_px) const {
-  const double x = displayed_px.x(), y = displayed_px.y();
-  const double right = grey_.cols - 1, bottom = grey_.rows - 1;
-  switch (metadata_.orientation) {
-    case 2:
-      return {right - x, y};
-    case 3:
-      return {right - x, bottom - y};
-    case 4:
-      return {x, bottom - y};
-    case 5:
-      return {y, x};
-    case 6:
-      return {y, bottom - x};
-    case 7:
-      return {right - y, bottom - x};
-    case 8:
-      return {right - y, x};
-    default:
-      return displayed_px;
-  }
+  const Turn turn = TurnOf(metadata_.orientation);
+  const Eigen::Vector2d exchanged = turn.exchange ? displayed_px.reverse().eval() : displayed_px;
+  return Flipped(exchanged, turn, grey_.size());
 }
 
 }  // namespace bladecurve
