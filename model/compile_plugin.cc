@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "model/export.h"
+#include "model/scratch_folder.h"
 
 namespace bladecurve {
 namespace {
@@ -22,30 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kNoSuchProgram = 127;  // as shells have it
-
-// A folder of its own that disappears again.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (fs::temp_directory_path() / "bladecurve-XXXXXX").string();
-    if (!mkdtemp(name.data())) {
-      throw std::runtime_error("export: no temporary folder in " +
-                               fs::temp_directory_path().string() + ": " + std::strerror(errno) +
-                               "; set TMPDIR to one that is writable");
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 // $CC may hold flags: "ccache gcc -m64".
 std::vector<std::string> Compiler() {
@@ -113,7 +90,7 @@ void PutInPlace(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 void CompilePlugin(const std::string& source, const fs::path& library) {
-  const ScratchFolder scratch;
+  const ScratchFolder scratch("export");
   const fs::path text = scratch.path() / "blade.c";
   const fs::path built = scratch.path() / "blade.so";
   const fs::path messages = scratch.path() / "messages";

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "model/scratch_folder.h"
 #include "samples/commands.h"
 #include "samples/output_files.h"
 #include "samples/parallel.h"
@@ -37,29 +38,6 @@ struct ValidateCommand {
   bool quiet = false, no_times = false;
 };
 
-// A folder of its own that goes when this goes.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string pattern = (fs::temp_directory_path() / "bladecurve-validate-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) {
-      throw std::runtime_error("cannot make a folder in " + fs::temp_directory_path().string() +
-                               "; set TMPDIR to one that can be written");
-    }
-    path_ = pattern;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
 // On a terminal only.
 void ShowProgress(int done, int of) {
   if (isatty(STDERR_FILENO) == 0) return;
@@ -67,7 +45,7 @@ void ShowProgress(int done, int of) {
 }
 
 std::vector<ValidationRow> RunScenes(const ValidateCommand& command) {
-  const ScratchFolder folder;
+  const ScratchFolder folder("validate");
   std::vector<ValidationRow> rows(static_cast<std::size_t>(command.scenes));
   std::atomic<int> done = 0;
   ParallelFor(command.scenes, command.threads, [&](int number) {
