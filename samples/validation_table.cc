@@ -9,11 +9,10 @@
 #include <map>
 
 #include "samples/csv_text.h"
+#include "samples/validation_misses.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kTwoSided95 = 1.959964;  // standard normal
 
 constexpr std::array<Quantity, kQuantities> kAll = {Quantity::kEdge,
                                                     Quantity::kPivot,
@@ -28,24 +27,6 @@ std::vector<double> SizesOf(const std::vector<ValidationRow>& rows, Quantity qua
     if (row.measured() && row.expected == "ok") sizes.push_back(row.Of(quantity).size);
   }
   return sizes;
-}
-
-struct Coverage {
-  int held = 0, of = 0;
-  [[nodiscard]] double share() const { return static_cast<double>(held) / of; }
-};
-
-Coverage CoverageOf(const std::vector<ValidationRow>& rows, Quantity quantity) {
-  Coverage coverage;
-  for (const ValidationRow& row : rows) {
-    if (!row.measured() || row.expected != "ok") continue;
-    for (const StatedError& stated : row.Of(quantity).stated) {
-      if (!std::isfinite(stated.error)) continue;
-      ++coverage.of;
-      if (std::abs(stated.error) <= kTwoSided95 * stated.sigma) ++coverage.held;
-    }
-  }
-  return coverage;
 }
 
 std::string ErrorTable(const std::vector<ValidationRow>& rows) {
@@ -68,6 +49,7 @@ std::string ErrorTable(const std::vector<ValidationRow>& rows) {
                         Percentile(sizes, 1),
                         held);
   }
+  for (const Quantity quantity : kAll) text += WhyMissed(rows, quantity);
   return text;
 }
 

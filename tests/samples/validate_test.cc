@@ -61,6 +61,25 @@ TEST(ValidationTable, CountsAnIntervalAsHeldUpTo196Sigma) {
       << ValidationTable(rows, true);
 }
 
+TEST(ValidationTable, SaysWhatSetsTheScenesApartThatMissTheTruth) {
+  std::vector<ValidationRow> rows;
+  for (int scene = 0; scene < 100; ++scene) {
+    rows.push_back(Measured(scene, scene < 20 ? 3 : 0.5, 1));
+    rows.back().detail = scene < 15 ? "scale_four_corners pivot_not_seen" : "scale_four_corners";
+  }
+  const std::string table = ValidationTable(rows, false);
+  EXPECT_NE(table.find("theta: of 20 scenes that miss the truth 15 warn pivot_not_seen, of the "
+                       "other 80 scenes 0"),
+            std::string::npos)
+      << table;
+}
+
+TEST(ValidationTable, SaysNothingOfIntervalsThatHold) {
+  std::vector<ValidationRow> rows;
+  for (int scene = 0; scene < 100; ++scene) rows.push_back(Measured(scene, scene < 5 ? 3 : 0.5, 1));
+  EXPECT_EQ(ValidationTable(rows, false).find("miss the truth"), std::string::npos);
+}
+
 TEST(ValidationTable, TellsRightRefusalsFromWrongOnes) {
   const std::vector<ValidationRow> rows = {Measured(0, 0.1, 1),
                                            Refused("ok", "low_contrast"),
