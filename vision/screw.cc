@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "vision/screw_candidates.h"
 #include "vision/screw_field.h"
@@ -87,16 +89,24 @@ class Octave {
                Surroundings(search, min_radius_px) / coarse_.scale,
                std::numbers::sqrt2 * kOctaveRadius) {}
 
-  [[nodiscard]] std::optional<Found> FindBest() const {
+  // All that may be a rim, the best one with all that lies around it.
+  [[nodiscard]] std::vector<Found> FindAll() const {
     const OctaveSearch search{(search_.guess_px - coarse_.origin) / coarse_.scale,
                               search_.radius_px / coarse_.scale};
+    std::vector<Found> all;
     std::optional<Found> best;
     for (const RimCandidate& candidate : FindRimCandidates(field_, search)) {
-      KeepBetter(Judge(candidate.rim.OutOf(coarse_.origin, coarse_.scale)), best);
+      const auto found = Judge(candidate.rim.OutOf(coarse_.origin, coarse_.scale));
+      if (found) all.push_back(*found);
+      KeepBetter(found, best);
     }
-    if (best && best->evidence > kPromising) best = Polish(*best);
-    if (best && best->fit.third_support < kLeastThird) return std::nullopt;
-    return best;
+    if (best && best->evidence > kPromising) {
+      best = Polish(*best);
+      all.push_back(*best);
+    }
+    // Round on one side only: a tip, a corner.
+    if (best && best->fit.third_support < kLeastThird) return {};
+    return all;
   }
 
  private:
@@ -153,16 +163,30 @@ class Octave {
   RimField field_;
 };
 
-std::optional<Found> FindBest(const cv::Mat& grey, const ScrewSearch& search) {
-  std::optional<Found> best;
+// Of all sizes, the best first.
+std::vector<Found> FindAll(const cv::Mat& grey, const ScrewSearch& search) {
+  std::vector<Found> all;
   const double smallest = std::max(search.min_semi_axis_px, kLeastSemiAxisPx);
   // Octaves overlap, as a rim near the end of one is seen better in the next.
   for (double radius = smallest; radius == smallest || 1.15 * radius < search.max_semi_axis_px;
        radius *= 1.8) {
-    const std::optional<Found> found = Octave(grey, search, radius).FindBest();
-    if (found && (!best || found->evidence > best->evidence)) best = found;
+    const std::vector<Found> found = Octave(grey, search, radius).FindAll();
+    all.insert(all.end(), found.begin(), found.end());
   }
-  return best;
+  std::stable_sort(all.begin(), all.end(), [](const Found& a, const Found& b) {
+    return a.evidence > b.evidence;
+  });
+  std::erase_if(all, [](const Found& found) { return found.fit.third_support < kLeastThird; });
+  return all;
+}
+
+// Whether both are rims of the same head, but not the same rim.
+bool Rivals(const RimEllipse& a, const RimEllipse& b) {
+  constexpr double kSameRim = 0.04, kSameHead = 0.5;  // of the radius, between the centres
+  constexpr double kMostLarger = 1.35;
+  const double radius = a.MeanRadius(), ratio = b.MeanRadius() / radius;
+  const double apart = (a.center - b.center).norm() / radius;
+  return apart > kSameRim && apart < kSameHead && ratio < kMostLarger && ratio > 1 / kMostLarger;
 }
 
 // Encoded grey values around the head as light, at full resolution.
@@ -205,6 +229,44 @@ Eigen::Matrix2d CenterCovariance(const RimFit& fit, double support) {
   return fit.center_covariance + shift * shift * Eigen::Matrix2d::Identity();
 }
 
+// The centre where several rims compete for one head (a bevelled edge, a lit recess round it):
+// their mean by the odds that their evidence gives them, and how far they part.
+struct WeighedCenter {
+  Eigen::Vector2d center;
+  Eigen::Matrix2d spread;  // px^2
+};
+
+WeighedCenter WeighCenters(const cv::Mat& grey,
+                           const ToneCurve& tone,
+                           const std::vector<Found>& all,
+                           const RimFit& best) {
+  constexpr double kUnlikely = 3;  // less evidence than the best has: odds of 20 to 1
+  std::vector<const Found*> rims{&all.front()};
+  std::vector<std::pair<double, Eigen::Vector2d>> centers{{1, best.rim.center}};
+  for (const Found& found : all) {
+    const double behind = all.front().evidence - found.evidence;
+    if (behind > kUnlikely) break;
+    const bool differs = std::all_of(rims.begin(), rims.end(), [&](const Found* rim) {
+      return Rivals(rim->fit.rim, found.fit.rim);
+    });
+    if (!differs) continue;
+    rims.push_back(&found);
+    centers.emplace_back(std::exp(-behind), Refine(grey, tone, found.fit).rim.center);
+  }
+  double total = 0;
+  WeighedCenter weighed{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
+  for (const auto& [weight, center] : centers) {
+    weighed.center += weight * center;
+    total += weight;
+  }
+  weighed.center /= total;
+  for (const auto& [weight, center] : centers) {
+    const Eigen::Vector2d off = center - weighed.center;
+    weighed.spread += weight / total * off * off.transpose();
+  }
+  return weighed;
+}
+
 }  // namespace
 
 std::optional<Screw> FindScrew(const cv::Mat& grey,
@@ -213,17 +275,19 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   Validate(grey, search);
   const cv::Rect2d picture(-0.5, -0.5, grey.cols, grey.rows);
   if (!picture.contains({search.guess_px.x(), search.guess_px.y()})) return std::nullopt;
-  const std::optional<Found> best = FindBest(grey, search);
-  if (!best || best->evidence < search.least_evidence) return std::nullopt;
-  const RimFit fit = Refine(grey, tone, best->fit);
+  const std::vector<Found> all = FindAll(grey, search);
+  if (all.empty() || all.front().evidence < search.least_evidence) return std::nullopt;
+  const Found& best = all.front();
+  const RimFit fit = Refine(grey, tone, best.fit);
+  const WeighedCenter weighed = WeighCenters(grey, tone, all, fit);
   Screw screw;
-  screw.center_px = fit.rim.center;
-  screw.covariance_px2 = CenterCovariance(fit, best->fit.support);
+  screw.center_px = weighed.center;
+  screw.covariance_px2 = CenterCovariance(fit, best.fit.support) + weighed.spread;
   screw.semi_major_px = fit.rim.SemiAxes()[1];
   screw.semi_minor_px = fit.rim.SemiAxes()[0];
   screw.angle_rad = fit.rim.MajorAngle();
-  screw.support = best->fit.support;
-  screw.evidence = best->evidence;
+  screw.support = best.fit.support;
+  screw.evidence = best.evidence;
   return screw;
 }
 
