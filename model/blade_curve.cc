@@ -53,6 +53,12 @@ CurveSample BladeCurve::Eval(double x_mm, double theta_rad) const noexcept {
   return EvalAny(k, x_mm, theta_rad);
 }
 
+double BladeCurve::Phi(double x_mm, double theta_rad) const noexcept {
+  const BladeKernel& k = prepared_->kernel;
+  if (k.is_spline == 0 && IsInside(&k, x_mm, theta_rad)) return TaperedJet(&k, x_mm, theta_rad).f;
+  return EvalAny(k, x_mm, theta_rad).phi_mm;
+}
+
 int BladeCurve::Contacts(double y_mm, double theta_rad, std::span<double> x_mm) const noexcept {
   return BladeContacts(
       &prepared_->kernel, y_mm, theta_rad, x_mm.data(), static_cast<int>(x_mm.size()));

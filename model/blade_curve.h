@@ -69,6 +69,9 @@ class BladeCurve {
 
   // Real-time safe: noexcept, no allocation, bounded time. Never NaN or Inf.
   [[nodiscard]] CurveSample Eval(double x_mm, double theta_rad) const noexcept;
+  // phi alone, mm: the same bits, sooner for a tapered rectangle. What lies outside the domain is
+  // not told; Eval's flags do.
+  [[nodiscard]] double Phi(double x_mm, double theta_rad) const noexcept;
 
   // All x of the domain with phi(x, theta) = y, ascending, each once also where the curve only
   // touches y. Writes as many as x_mm holds and returns how many there are. Real-time safe.

@@ -185,8 +185,7 @@ double MeetingPoint(const CutScene& scene, double delta_mm, double theta_rad) no
   const CurveDomain& domain = scene.blade.domain();
   std::array<double, 1> x_mm;
   if (scene.blade.Contacts(y_mm, theta_rad, x_mm) > 0) return x_mm[0];
-  return scene.blade.Eval(domain.x_max_mm, theta_rad).phi_mm < y_mm ? domain.x_max_mm
-                                                                    : domain.x_min_mm;
+  return scene.blade.Phi(domain.x_max_mm, theta_rad) < y_mm ? domain.x_max_mm : domain.x_min_mm;
 }
 
 CutPhases FindCutPhases(const PlateLog& log, const CutScene& scene) {

@@ -102,7 +102,7 @@ double ContactAngle(const IdentifyInput& input) {
   double low = blade.domain().theta_min_rad, high = blade.domain().theta_max_rad;
   for (int i = 0; i < 30; ++i) {  // to a billionth: uncertainties need not even that
     const double middle = 0.5 * (low + high);
-    const bool touches = blade.Eval(input.span.edge_mm, middle).phi_mm < 0.5 * input.thickness_mm;
+    const bool touches = blade.Phi(input.span.edge_mm, middle) < 0.5 * input.thickness_mm;
     (touches ? low : high) = middle;
   }
   return low;
@@ -115,7 +115,7 @@ double ContactSigma(const IdentifyInput& input, double step_rad) {
   const double of_encoder_mm =
       0.5 * step_rad * input.blade.curve.Eval(x_mm, theta_rad).phi_theta_mm_per_rad;
   const auto edge = [=](const BladeCurve& blade) {
-    return std::vector{blade.Eval(x_mm, theta_rad).phi_mm};
+    return std::vector{blade.Phi(x_mm, theta_rad)};
   };
   return std::hypot(of_encoder_mm, PropagateBladeUncertainty(input.blade, edge)[0]);
 }

@@ -205,6 +205,19 @@ TEST(BladeCurve, SplineEndsInsideTheDomainAreTheDomainsStraightContinuation) {
   EXPECT_NEAR(beyond.phi_mm, end.phi.phi_mm + 5 * end.phi.phi_x, 1e-12);
 }
 
+TEST(BladeCurve, PhiAloneHasTheSameBits) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 200; ++i) {
+    const BladeCurve blade = RandomBlade(random);
+    for (int place = 0; place < 50; ++place) {
+      const double x = Uniform(random, -50, 200), theta = Uniform(random, -1, 4);
+      ASSERT_EQ(blade.Phi(x, theta), blade.Eval(x, theta).phi_mm) << x << " " << theta;
+    }
+  }
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(RandomBlade(random).Phi(nan, 0.3), 0);
+}
+
 TEST(BladeCurve, NotFiniteInputGivesZerosAndAFlag) {
   std::mt19937 random(9);
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
