@@ -44,22 +44,6 @@ cv::Mat GradientLength(const cv::Mat& lab, double sigma) {
   return length;
 }
 
-// What is left of the gradient where it is sharp: a border that is as steep at a coarse scale as at
-// a fine one is a shadow's, a step loses two thirds.
-cv::Mat Walls(const cv::Mat& lab, int closed_px) {
-  constexpr double kFine = 0.8;  // px: below it is noise and JPEG's ringing
-  constexpr double kCoarse = 2.5;
-  constexpr double kSoft = 1.2;  // a ramp that loses less than a sixth is no wall
-  const cv::Mat sharp =
-      cv::max(GradientLength(lab, kFine) - kSoft * GradientLength(lab, kCoarse), 0);
-  cv::Mat closed;
-  cv::morphologyEx(sharp,
-                   closed,
-                   cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
-  return closed;
-}
-
 float UsualGradient(const cv::Mat& walls) {
   constexpr float kRounding = 0.1f;  // Lab units per px: what an even, noiseless ground has
   std::vector<float> values(walls.begin<float>(), walls.end<float>());
@@ -117,25 +101,37 @@ cv::Mat Flood(const cv::Mat& bins, const std::vector<int>& springs) {
 
 }  // namespace
 
-cv::Mat FloodLevels(const cv::Mat& lab,
+cv::Mat SharpGradient(const cv::Mat& lab) {
+  constexpr double kFine = 0.8;  // px: below it is noise and JPEG's ringing
+  constexpr double kCoarse = 2.5;
+  constexpr double kSoft = 1.2;  // a ramp that loses less than a sixth is no wall; a step loses two
+                                 // thirds
+  return cv::max(GradientLength(lab, kFine) - kSoft * GradientLength(lab, kCoarse), 0);
+}
+
+cv::Mat FloodLevels(const cv::Mat& sharp_gradient,
                     const cv::Mat& distance,
                     const cv::Mat& ignore,
                     int closed_px) {
-  const cv::Mat walls = Walls(lab, closed_px);
+  cv::Mat walls;
+  cv::morphologyEx(sharp_gradient,
+                   walls,
+                   cv::MORPH_CLOSE,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
   const float usual = UsualGradient(walls);
-  cv::Mat bins(lab.size(), CV_8UC1);
-  for (int row = 0; row < lab.rows; ++row) {
+  cv::Mat bins(walls.size(), CV_8UC1);
+  for (int row = 0; row < walls.rows; ++row) {
     const float* wall = walls.ptr<float>(row);
     uchar* bin = bins.ptr(row);
-    for (int col = 0; col < lab.cols; ++col) bin[col] = BinOfLevel(wall[col] / usual);
+    for (int col = 0; col < walls.cols; ++col) bin[col] = BinOfLevel(wall[col] / usual);
   }
   if (!ignore.empty()) bins.setTo(0, ignore);
   const cv::Mat reached = Flood(bins, Springs(distance));
-  cv::Mat levels(lab.size(), CV_32FC1);
-  for (int row = 0; row < lab.rows; ++row) {
+  cv::Mat levels(walls.size(), CV_32FC1);
+  for (int row = 0; row < walls.rows; ++row) {
     const uchar* bin = reached.ptr(row);
     float* level = levels.ptr<float>(row);
-    for (int col = 0; col < lab.cols; ++col) level[col] = LevelOfBin(bin[col]);
+    for (int col = 0; col < walls.cols; ++col) level[col] = LevelOfBin(bin[col]);
   }
   if (!ignore.empty()) levels.setTo(0, ignore);
   return levels;

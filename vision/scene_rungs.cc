@@ -96,9 +96,10 @@ Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
   // In units of the usual gradient. Below, the ground is dry too; above, most metal is wet.
   constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
   const cv::Mat distance = LabDistance(view, colour);
+  const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
   Rung rung;
   for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
-    rung.distance = FloodLevels(colour.lab->pixels, distance, colour.ignore, closed_px);
+    rung.distance = FloodLevels(sharp_gradient, distance, colour.ignore, closed_px);
     for (const double level : kLevels) {
       CollectFrom(DryMask(rung.distance, level, closed_px),
                   {{}, colour.lab, {}, "flood", level},

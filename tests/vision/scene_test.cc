@@ -61,7 +61,8 @@ cv::Mat DiscAndCloud() {
 
 TEST(FloodLevels, WallInWhatIsSharplyOutlinedWhateverItsColour) {
   const cv::Mat lab = DiscAndCloud();
-  const cv::Mat levels = FloodLevels(lab, cv::Mat::zeros(lab.size(), CV_32FC1), {}, 3);
+  const cv::Mat levels =
+      FloodLevels(SharpGradient(lab), cv::Mat::zeros(lab.size(), CV_32FC1), {}, 3);
   const float outside = levels.at<float>(20, 200);
   const float disc = levels.at<float>(100, 100);
   const float cloud = levels.at<float>(100, 300);
@@ -73,7 +74,8 @@ TEST(FloodLevels, AreZeroWhereNothingIsToBeLookedAt) {
   const cv::Mat lab = DiscAndCloud();
   cv::Mat ignore = cv::Mat::zeros(lab.size(), CV_8UC1);
   ignore(cv::Rect(50, 50, 100, 100)).setTo(255);
-  const cv::Mat levels = FloodLevels(lab, cv::Mat::zeros(lab.size(), CV_32FC1), ignore, 3);
+  const cv::Mat levels =
+      FloodLevels(SharpGradient(lab), cv::Mat::zeros(lab.size(), CV_32FC1), ignore, 3);
   EXPECT_EQ(levels.at<float>(100, 100), 0);
 }
 
