@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vision/closed_shape.h"
 #include "vision/robust_statistics.h"
@@ -34,22 +35,21 @@ double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path,
   return steps.empty() ? 0 : Median(steps);
 }
 
-constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp border's transition
-constexpr double kSoftReach = 5;     // most of a soft shadow's
-
-// Of the two inner edges the weaker: a shadow that passes for a blade has a soft border.
-double EdgeStrength(const cv::Mat& image, const BladePair& pair) {
-  return std::min(TransitionAcross(image, pair.first.inner, kSharpReach),
-                  TransitionAcross(image, pair.second.inner, kSharpReach));
-}
-
-// Share of the transition that a sharp border would have there, of the softer inner edge.
-double EdgeSharpness(const cv::Mat& image, const BladePair& pair) {
-  const auto sharpness = [&](const std::vector<Vector2d>& path) {
-    return TransitionAcross(image, path, kSharpReach) /
-           std::max(1e-6, TransitionAcross(image, path, kSoftReach));
-  };
-  return std::min(sharpness(pair.first.inner), sharpness(pair.second.inner));
+// Fills in strength and sharpness. Of the two inner edges the weaker and the softer counts: a
+// shadow that passes for a blade has a soft border.
+void JudgeEdges(const BladePair& pair, Candidate* candidate) {
+  constexpr double kSharpReach =
+      1.5;                          // px of the small picture: all of a sharp border's transition
+  constexpr double kSoftReach = 5;  // most of a soft shadow's
+  const cv::Mat& image = candidate->at->pixels;
+  candidate->strength = std::numeric_limits<double>::infinity();
+  candidate->sharpness = std::numeric_limits<double>::infinity();
+  for (const BladeContour* blade : {&pair.first, &pair.second}) {
+    const double near = TransitionAcross(image, blade->inner, kSharpReach);
+    const double far = TransitionAcross(image, blade->inner, kSoftReach);
+    candidate->strength = std::min(candidate->strength, near);
+    candidate->sharpness = std::min(candidate->sharpness, near / std::max(1e-6, far));
+  }
 }
 
 // Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
@@ -102,8 +102,7 @@ void CollectFrom(const cv::Mat& mask,
     for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
       if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
       Candidate candidate = like;
-      candidate.strength = EdgeStrength(like.at->pixels, pair);
-      candidate.sharpness = EdgeSharpness(like.at->pixels, pair);
+      JudgeEdges(pair, &candidate);
       candidate.pair = std::move(pair);
       DoubtSoftEdges(&candidate);
       candidate.mask = mask;
