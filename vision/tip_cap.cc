@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/robust_statistics.h"
+
 namespace bladecurve {
 namespace {
 
@@ -106,12 +108,6 @@ std::optional<EndSeen> LookAlong(
       shift = std::clamp(0.5 * (steps[best_at - 1] - steps[best_at + 1]) / curvature, -0.5, 0.5);
   }
   return EndSeen{depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift)};
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 struct Arc {
