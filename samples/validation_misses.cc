@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "samples/validation_table.h"
 
@@ -27,13 +26,6 @@ bool Misses(const ValidationRow& row, Quantity quantity) {
   return std::any_of(stated.begin(), stated.end(), [](const StatedError& s) {
     return std::isfinite(s.error) && !Holds(s);
   });
-}
-
-std::vector<std::string> WarningsOf(const ValidationRow& row) {
-  std::istringstream text(row.detail);
-  std::vector<std::string> warnings;
-  for (std::string word; text >> word;) warnings.push_back(word);
-  return warnings;
 }
 
 // Scenes that carry a warning, among those that miss the truth and among the others.
@@ -71,7 +63,7 @@ std::string WhyMissed(const std::vector<ValidationRow>& rows, Quantity quantity)
     if (!Counts(row)) continue;
     const bool misses = Misses(row, quantity);
     ++(misses ? scenes.missing : scenes.others);
-    for (const std::string& warning : WarningsOf(row))
+    for (const std::string& warning : row.warnings)
       ++(misses ? carried[warning].missing : carried[warning].others);
   }
   const auto excess = [&](const Carried& c) {

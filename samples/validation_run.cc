@@ -62,12 +62,6 @@ AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& fil
   return settings;
 }
 
-std::string Joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 std::vector<std::string> WarningsOf(const Analysis& analysis) {
   std::vector<std::string> warnings = analysis.photos.front().warnings;
   warnings.insert(warnings.end(), analysis.fit.warnings.begin(), analysis.fit.warnings.end());
@@ -85,9 +79,8 @@ ValidationRow ValidateScene(const ValidationScene& scene, const fs::path& folder
   row.theta_deg = scene.spec.theta_rad * 180 / std::numbers::pi;
   try {
     const Analysis analysis = AnalyzeScissors({files.photo()}, SettingsFor(scene, files));
-    const std::vector<std::string> warnings = WarningsOf(analysis);
-    row.outcome = warnings.empty() ? "ok" : "review";
-    row.detail = Joined(warnings);
+    row.warnings = WarningsOf(analysis);
+    row.outcome = row.warnings.empty() ? "ok" : "review";
     row.ms = analysis.photos.front().ms_total + analysis.fit_ms;
     row.errors = CompareWithTruth(analysis, photo.truth);
   } catch (const PhotoRefused& refusal) {

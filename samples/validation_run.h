@@ -33,8 +33,9 @@ struct ValidationRow {
   int number = 0;
   std::string expected;  // "ok" or the reason code that is right
   std::string outcome;   // "ok", "review" or the reason code that came
-  std::string detail;    // warnings, or what the refusal says
-  double theta_deg = 0;  // of the scene
+  std::vector<std::string> warnings;
+  std::string detail;                                    // what the refusal says
+  double theta_deg = 0;                                  // of the scene
   double ms = std::numeric_limits<double>::quiet_NaN();  // photograph to curve, in process
   std::array<QuantityErrors, kQuantities> errors;
 

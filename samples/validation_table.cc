@@ -185,7 +185,7 @@ std::string ValidationCsv(const std::vector<ValidationRow>& rows, bool with_time
       fields.push_back(CsvSigmas(row.Of(quantity)));
     }
     if (with_times) fields.push_back(CsvNumber(row.ms));
-    fields.push_back(row.detail);
+    fields.push_back(row.measured() ? fmt::format("{}", fmt::join(row.warnings, " ")) : row.detail);
     text += CsvLine(fields);
   }
   return text;

@@ -65,7 +65,8 @@ TEST(ValidationTable, SaysWhatSetsTheScenesApartThatMissTheTruth) {
   std::vector<ValidationRow> rows;
   for (int scene = 0; scene < 100; ++scene) {
     rows.push_back(Measured(scene, scene < 20 ? 3 : 0.5, 1));
-    rows.back().detail = scene < 15 ? "scale_four_corners pivot_not_seen" : "scale_four_corners";
+    rows.back().warnings = {"scale_four_corners"};
+    if (scene < 15) rows.back().warnings.emplace_back("pivot_not_seen");
   }
   const std::string table = ValidationTable(rows, false);
   EXPECT_NE(table.find("theta: of 20 scenes that miss the truth 15 warn pivot_not_seen, of the "
