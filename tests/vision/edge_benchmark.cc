@@ -20,13 +20,12 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using testing::Direction;
 using testing::EdgeLook;
 using testing::Gaussian;
 
 constexpr double kLength = 300;
 constexpr int kSide = 340;
-
-Vector2d Direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 // What many draws of one kind of picture say.
 struct Tally {

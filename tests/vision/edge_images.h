@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <opencv2/core.hpp>
@@ -30,6 +31,11 @@ class Gaussian {
  private:
   std::mt19937 engine_;
 };
+
+// Unit vector at this angle from +x towards +y.
+[[nodiscard]] inline Eigen::Vector2d Direction(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
 
 // Share of background in each pixel, CV_64F, exact to 1e-8, by formulas that share nothing with the
 // detector's. Half-plane: the point (x, y) is background where normal . (x, y) > offset.

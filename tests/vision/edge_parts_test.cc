@@ -22,11 +22,10 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using testing::Direction;
 using testing::Gaussian;
 
 constexpr double kTableError = 3e-5;  // flanks of the trapezoid widened to 0.02 px
-
-Vector2d Direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 TEST(BlurredStep, EqualsTheBlurredHalfPlaneAveragedOverThePixel) {
   Gaussian random(1);

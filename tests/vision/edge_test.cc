@@ -18,13 +18,12 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using testing::Direction;
 using testing::EdgeLook;
 using testing::Gaussian;
 
 constexpr int kSide = 240;
 constexpr double kLength = 180;
-
-Vector2d Direction(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
 // A straight edge through the middle of a picture; background is where normal . p > offset.
 struct Line {

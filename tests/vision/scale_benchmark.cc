@@ -17,13 +17,6 @@
 namespace bladecurve {
 namespace {
 
-ToneCurve LinearToneCurve() {
-  ToneCurve tone;
-  for (size_t v = 0; v < 256; ++v)
-    tone.linear[v] = static_cast<float>(static_cast<double>(v) / 255);
-  return tone;
-}
-
 // Cramer-Rao bound of a corner's coordinate: two straight edges of the marker's full side, each
 // with offset and angle unknown, so that an end scatters twice as much as the middle. Levels count
 // as known: those of a band of ten sigma add a quarter.

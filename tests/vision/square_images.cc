@@ -47,6 +47,13 @@ double PixelMean(const SquareImage& image, int x, int y) {
 
 }  // namespace
 
+ToneCurve LinearToneCurve() {
+  ToneCurve tone;
+  for (size_t v = 0; v < 256; ++v)
+    tone.linear[v] = static_cast<float>(static_cast<double>(v) / 255);
+  return tone;
+}
+
 std::array<Eigen::Vector2d, 4> Corners(const SquareImage& image) {
   const double c = std::cos(image.angle_rad), s = std::sin(image.angle_rad),
                h = 0.5 * image.side_px;

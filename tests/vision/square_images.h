@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <random>
 
+#include "vision/tone_curve.h"
+
 namespace bladecurve {
 
 // A dark square on a bright ground, turned by any angle. Blurred by a Gaussian and integrated over
@@ -26,6 +28,9 @@ struct SquareImage {
 [[nodiscard]] std::array<Eigen::Vector2d, 4> Corners(const SquareImage& image);
 
 [[nodiscard]] cv::Mat Draw(const SquareImage& image, std::mt19937* random);
+
+// Of a picture whose encoding_gamma is 1.
+[[nodiscard]] ToneCurve LinearToneCurve();
 
 // Normal deviate by Box and Muller: the same on every platform.
 [[nodiscard]] double Normal(std::mt19937* random);

@@ -14,13 +14,6 @@
 namespace bladecurve {
 namespace {
 
-ToneCurve LinearToneCurve() {
-  ToneCurve tone;
-  for (size_t v = 0; v < 256; ++v)
-    tone.linear[v] = static_cast<float>(static_cast<double>(v) / 255);
-  return tone;
-}
-
 // Where the first side of the square truly lies along a located edge's normal: zero if the edge is
 // right.
 double OffsetOf(const StraightEdge& edge, const SquareImage& image) {
