@@ -28,6 +28,9 @@ struct EdgeOptions {
   bool model_background_slope = true;  // shadows: grey values may slope on either side
   std::optional<double>
       blur_px;  // known from another edge of the photograph; an overexposed blade hides its own
+  // What print beside it shows: a shadow along the edge looks like more blur. Lifted where the
+  // blade itself is as soft.
+  double most_blur_px = std::numeric_limits<double>::infinity();
 };
 
 struct LocatedEdgePoint {

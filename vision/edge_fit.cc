@@ -47,12 +47,17 @@ class Fitter {
       : grey_(grey),
         tone_(tone),
         options_(options),
+        most_blur_(options.most_blur_px),
         blur_(options.blur_known ? options.blur_px : kFirstShare * options.blur_px) {}
 
   EdgeFit Run(const std::vector<Eigen::Vector2d>& start, bool blade_on_left) {
     constexpr double kStartSmoothing = 2, kSmoothing = 1;  // px; what was fitted is smooth already
     Take(SmoothPath(start, blade_on_left, kStartSmoothing));
     for (int k = 0; k < kSketchRounds; ++k) Improve(k == 0 ? kFirstSketch : kSketch);
+    if (SoftBeyondBound()) {
+      most_blur_ = EdgeFitOptions::kFree;
+      for (int k = 0; k < kSketchRounds; ++k) Improve(kSketch);
+    }
     before_ = offsets_;
     Take(SmoothPath(Shifted(path_, offsets_), blade_on_left, kSmoothing));
     for (int k = 0; k < kImproveRounds; ++k) Improve(kImprove);
@@ -114,6 +119,12 @@ class Fitter {
     if (precision[kGroundBend] < kFixed) windows_.Solve(precision + slopes);
     slopes[kGroundBend] = windows_.SupportedSlopes()[kGroundBend];
     return slopes;
+  }
+
+  // A shadow softens the background's side alone; where the blade's slopes too, it is the lens that
+  // is softer than the bound.
+  [[nodiscard]] bool SoftBeyondBound() const {
+    return blur_ == most_blur_ && slopes_[kBladeSlope] < kFixed;
   }
 
   // The pixels of sample i, the edge lying offsets_[i] out of the path.
@@ -212,8 +223,8 @@ class Fitter {
                          window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
     }
     const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_, 0.6 * blur_);
-    blur_ = std::clamp(
-        blur_ + step, kLeastShare * options_.blur_px, kMostShare * options_.blur_px + kMargin);
+    const double most = std::min(kMostShare * options_.blur_px + kMargin, most_blur_);
+    blur_ = std::min(std::max(blur_ + step, kLeastShare * options_.blur_px), most);
   }
 
   void Advance() {
@@ -272,7 +283,7 @@ class Fitter {
   const cv::Mat& grey_;
   const ToneCurve& tone_;
   const EdgeFitOptions& options_;
-  double blur_;
+  double most_blur_, blur_;
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;

@@ -18,8 +18,9 @@ struct EdgeFitOptions {
   // spaced).
   std::vector<double> inner_px = {kFree}, outer_px = {kFree};
   static constexpr double kFree = 1e3;
-  double blur_px = 0.9;     // known to a factor of two; 0.9 is usual
-  bool blur_known = false;  // blur_px is right and stays
+  double blur_px = 0.9;         // known to a factor of two; 0.9 is usual
+  bool blur_known = false;      // blur_px is right and stays
+  double most_blur_px = kFree;  // blur is no more, unless the blade's side is as soft
   bool correct_curvature = true;
   bool model_slopes = true;
 };

@@ -10,6 +10,7 @@
 #include "vision/edge_colour.h"
 #include "vision/edge_shadow.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -67,6 +68,15 @@ bool HasDarkBand(const LocatedEdge& edge) {
   return edge.ambiguity > kAsGood && std::abs(edge.rival_px) >= kNarrowest;
 }
 
+// Of the markers' sides: the blade's edge, nearer to the camera by a plate or so, is as sharp.
+double MostBlur(const std::vector<SeenMarker>& markers) {
+  std::vector<double> blurs;
+  for (const SeenMarker& marker : markers) {
+    if (std::isfinite(marker.blur_px)) blurs.push_back(marker.blur_px);
+  }
+  return blurs.empty() ? EdgeOptions{}.most_blur_px : Median(std::move(blurs));
+}
+
 std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   std::vector<Vector2d> path;
   for (const LocatedEdgePoint& point : edge.points) path.push_back(point.trend_px);
@@ -76,8 +86,10 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
 // Looks for the edges of one photograph; decodes its colours only if grey leaves a doubt.
 class BladeLocator {
  public:
-  BladeLocator(const Photo& photo, const ToneCurve& tone, const Scene& scene)
-      : photo_(photo), tone_(tone), scene_(scene) {}
+  BladeLocator(const Photo& photo, const ScaleResult& scale, const Scene& scene)
+      : photo_(photo), tone_(scale.tone), scene_(scene) {
+    options_.most_blur_px = MostBlur(scale.markers);
+  }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
     const EdgeGuess guess = GuessFor(scene_, left);
@@ -96,7 +108,7 @@ class BladeLocator {
   // A glaring blade's edge once more, with the blur that the other blade shows.
   [[nodiscard]] LocatedEdge WithBlurOf(const LocatedEdge& other, LocatedEdge edge, bool left) {
     if (!Glares(edge, other)) return edge;
-    EdgeOptions options;
+    EdgeOptions options = options_;
     options.blur_px = other.blur_px;
     try {
       return LocateEdge(photo_.grey(), tone_, GuessFor(scene_, left), options);
@@ -112,7 +124,7 @@ class BladeLocator {
   [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
     constexpr double kGain = 1.5;  // times better separated; less is no other picture
     try {
-      return LocateEdge(photo_.grey(), tone_, guess);
+      return LocateEdge(photo_.grey(), tone_, guess, options_);
     } catch (const Refused&) {
       const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
       if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
@@ -132,7 +144,7 @@ class BladeLocator {
     settled.path_px = want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px;
     settled.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
     try {
-      return LocateEdge(photo_.grey(), tone_, settled);
+      return LocateEdge(photo_.grey(), tone_, settled, options_);
     } catch (const Refused&) {
       return edge;
     }
@@ -147,16 +159,17 @@ class BladeLocator {
   const Photo& photo_;
   const ToneCurve& tone_;
   const Scene& scene_;
+  EdgeOptions options_;
   cv::Mat colours_;
 };
 
 }  // namespace
 
 BladeEdges LocateBlades(const Photo& photo,
-                        const ToneCurve& tone,
+                        const ScaleResult& scale,
                         const Scene& scene,
                         bool upper_on_left) {
-  BladeLocator locator(photo, tone, scene);
+  BladeLocator locator(photo, scale, scene);
   BladeEdges edges{locator.Locate(upper_on_left), locator.LocateOrTrace(!upper_on_left)};
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);

@@ -4,6 +4,7 @@
 
 #include "vision/edge.h"
 #include "vision/photo.h"
+#include "vision/scale.h"
 #include "vision/scene.h"
 
 namespace bladecurve {
@@ -17,7 +18,7 @@ struct BladeEdges {
 // lower edge may be the trace itself where nothing better is to be had: ambiguity 1, sigma as large
 // as the trace's. Throws Refused as LocateEdge does for the upper edge.
 [[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
-                                      const ToneCurve& tone,
+                                      const ScaleResult& scale,
                                       const Scene& scene,
                                       bool upper_on_left);
 

@@ -115,7 +115,7 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
     sides[static_cast<size_t>(k)] = *side;
   }
   if (!LooksPrinted(sides)) return marker;
-  double variance = 0;
+  double variance = 0, blur = 0;
   for (size_t k = 0; k < 4; ++k) {
     const EdgeCrossing crossing = Cross(sides[(k + 3) % 4], sides[k]);
     // Lines may cross far from where the marker was seen only if one of them followed something
@@ -124,8 +124,10 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
       return Unlocated(rough);
     marker.corners_px[k] = crossing.point_px;
     variance += crossing.covariance_px2.trace() / 8;
+    blur += sides[k].blur_px / 4;
   }
   marker.corner_sigma_px = std::sqrt(variance);
+  marker.blur_px = blur;
   return marker;
 }
 

@@ -130,11 +130,11 @@ struct Blades {
 };
 
 Blades LocateAndTrim(const Photo& photo,
-                     const ToneCurve& tone,
+                     const ScaleResult& scale,
                      const Scene& scene,
                      bool upper_on_left,
                      StageLog* log) {
-  BladeEdges edges = LocateBlades(photo, tone, scene, upper_on_left);
+  BladeEdges edges = LocateBlades(photo, scale, scene, upper_on_left);
   if (log->wants_pictures()) {
     log->Picture("edge-upper", DrawEdge(photo.grey(), edges.upper));
     log->Picture("edge-lower", DrawEdge(photo.grey(), edges.lower));
@@ -208,7 +208,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const StoredHints hints = InStored(photo, options.hints);
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  const Blades blades = LocateAndTrim(photo, scale.tone, scene, upper_on_left, &log);
+  const Blades blades = LocateAndTrim(photo, scale, scene, upper_on_left, &log);
   const Pivot pivot = LocatePivot(photo, scale, scene, blades, hints, &log);
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);

@@ -42,6 +42,7 @@ struct SeenMarker {
   std::array<Eigen::Vector2d, 4>
       corners_px;  // sub-pixel; printed order, clockwise from the top left
   double corner_sigma_px = std::numeric_limits<double>::quiet_NaN();
+  double blur_px = std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma, pixel box apart
 };
 
 struct ScaleResult {

@@ -183,6 +183,66 @@ TEST(LocateEdge, TheBordersOfASoftShadowIsNotTheBlades) {
   }
 }
 
+// Seen through Edge()'s blur, by summation.
+template <typename Function>
+double Blurred(double d, const Function& light) {
+  constexpr double kStep = 0.02, kReach = 4;  // px
+  const double variance = 0.7 * 0.7 + 1.0 / 12;
+  double sum = 0, weights = 0;
+  for (double u = -kReach; u <= kReach; u += kStep) {
+    const double weight = std::exp(-0.5 * u * u / variance);
+    sum += weight * light(d - u);
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+// Deepest at the blade, gone within a few px: steepest where the edge is.
+TEST(LocateEdge, AContactShadowIsNoBlurOnceThatIsBounded) {
+  constexpr double kBlur = 0.7;    // of Edge()
+  constexpr double kClose = 0.06;  // px
+  Gaussian random(23);
+  double alone = 0, bounded = 0;
+  constexpr int kTrials = 6;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light = Banded(line, [](double d) {
+      return Blurred(d, [](double u) { return u < 0 ? 40.0 : 140 - 60 * std::exp(-u / 3); });
+    });
+    const cv::Mat grey = testing::Stored(light, 1.5, 1, random);
+    const auto mean = [&](const EdgeOptions& options) {
+      return MeanOffset(LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 1, -1), options),
+                        line)
+          .mean;
+    };
+    EdgeOptions options;
+    alone += mean(options) / kTrials;
+    options.most_blur_px = kBlur;
+    bounded += mean(options) / kTrials;
+  }
+  EXPECT_NEAR(bounded, 0, kClose);
+  EXPECT_GT(alone, 1.5 * std::abs(bounded));
+}
+
+// A blade nearer to the camera may be less sharp than the print that bounds its blur.
+TEST(LocateEdge, ABoundBelowTheTrueBlurMovesNoPlainEdge) {
+  constexpr double kClose = 0.02;  // px
+  Gaussian random(24);
+  const EdgeLook look{1.2, 60, 180, 1.5, 1};
+  for (int trial = 0; trial < 6; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat grey = testing::Photographed(
+        testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
+        look,
+        random);
+    EdgeOptions options;
+    options.most_blur_px = 0.7;
+    const LocatedEdge edge =
+        LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 1, -1), options);
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, kClose);
+  }
+}
+
 TEST(LocateEdge, ADarkBevelLineBelongsToTheBlade) {
   constexpr double kOverlap = 0.25;  // px; the blurs of two borders 3 px apart overlap
   Gaussian random(16);
