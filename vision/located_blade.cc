@@ -33,7 +33,7 @@ double ClearOfCrossing(const LocatedEdge& edge) {
 
 // Near the end the windows of the edge fit, 50 px long, reach round the tip and bend the edge. px.
 double SmearedByTip(const std::vector<Vector2d>& points) {
-  constexpr double kSmearedPx = 20, kMostOfEdge = 0.05;
+  constexpr double kSmearedPx = 28, kMostOfEdge = 0.08;
   if (points.empty()) return 0;
   return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
 }

@@ -18,12 +18,12 @@ constexpr std::size_t kFewestPoints = 12;  // fewer say nothing about where the 
 // The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
 struct EdgeAxis {
   Vector2d origin, along, inwards;
-  Eigen::Vector3d parabola;  // offset of the edge over (position - middle)
-  double middle = 0;
+  Eigen::Vector4d cubic;  // offset of the edge over the share of its length
+  double length = 0;
 
   [[nodiscard]] double EdgeOffset(double t) const {
-    const double s = t - middle;
-    return parabola[0] + s * (parabola[1] + s * parabola[2]);
+    const double s = t / length;
+    return cubic[0] + s * (cubic[1] + s * (cubic[2] + s * cubic[3]));
   }
   // The point at position t, `depth` px inside the blade.
   [[nodiscard]] Vector2d At(double t, double depth) const {
@@ -31,27 +31,26 @@ struct EdgeAxis {
   }
 };
 
-// A parabola through the part of the edge that is clear of the crotch and of the tip.
+// A cubic through the part of the edge that is clear of the crotch and of the tip.
 EdgeAxis ContinueEdge(const std::vector<Vector2d>& edge, const TipSearch& search) {
+  constexpr double kFrom = 0.1, kTo = 0.93;  // shares of the edge's length
   EdgeAxis axis;
   axis.origin = edge.front();
   axis.along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
   const Vector2d left(axis.along.y(), -axis.along.x());
   axis.inwards = search.blade_on_left ? left : Vector2d(-left);
-  const double length = (search.tip_px - axis.origin).dot(axis.along);
-  axis.middle = 0.65 * length;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  axis.length = (search.tip_px - axis.origin).dot(axis.along);
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
   for (const Vector2d& p : edge) {
-    const double t = (p - axis.origin).dot(axis.along);
-    if (t < 0.4 * length || t > 0.88 * length) continue;
-    const double s = t - axis.middle;
-    const Eigen::Vector3d row(1, s, s * s);
+    const double s = (p - axis.origin).dot(axis.along) / axis.length;
+    if (s < kFrom || s > kTo) continue;
+    const Eigen::Vector4d row(1, s, s * s, s * s * s);
     normal += row * row.transpose();
     right += row * (p - axis.origin).dot(axis.inwards);
   }
   normal.diagonal().array() += 1e-9;
-  axis.parabola = normal.ldlt().solve(right);
+  axis.cubic = normal.ldlt().solve(right);
   return axis;
 }
 
