@@ -81,6 +81,16 @@ void RefuseOutOfPlane(const Pivot& pivot) {
           " of the blade's length); angled or bent blades cannot be measured from one view");
 }
 
+void RefuseJaws(const Pivot& pivot) {
+  constexpr double kLeastOverlap = 0.04;  // 0.055 and more for all scissors, 0.03 and less for jaws
+  if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
+  throw Refused(
+      Reason::kNotScissors,
+      "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
+      "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are scissors, "
+      "say where the screw is: --pivot X,Y");
+}
+
 std::vector<EdgePoint> ToFrame(const BladeFrame& frame,
                                const std::vector<LocatedEdgePoint>& located) {
   std::vector<EdgePoint> points;
@@ -160,6 +170,7 @@ Pivot LocatePivot(const Photo& photo,
   Pivot pivot = FindPivot(photo.grey(), scale, search);
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
   RefuseOutOfPlane(pivot);
+  RefuseJaws(pivot);
   log->Ran("pivot", pivot.source);
   return pivot;
 }

@@ -12,29 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// From the first to the last point of the edge's proximal 60 %: before a curved blade bends away.
-struct Chord {
-  Vector2d point, direction;
-};
-
-Chord ProximalChord(const std::vector<Vector2d>& edge) {
-  const std::size_t last = std::max<std::size_t>(1, edge.size() * 3 / 5);
-  return {edge.front(), (edge[std::min(last, edge.size() - 1)] - edge.front()).normalized()};
-}
-
-// The line about which the two chords mirror each other: a point and a unit direction towards the
-// tips.
-Chord MirrorLine(const EdgePair& edges) {
-  const Chord a = ProximalChord(edges.left_px);
-  const Chord b = ProximalChord(edges.right_px);
-  const Vector2d direction = (a.direction + b.direction).normalized();
-  const double sine = Cross(a.direction, b.direction);
-  if (std::abs(sine) < 0.02) return {0.5 * (a.point + b.point), direction};  // nearly parallel
-  return {a.point + Cross(b.point - a.point, b.direction) / sine * a.direction, direction};
-}
-
 // Covariance with different sigmas along and across a unit direction.
 Eigen::Matrix2d AlongAcross(const Vector2d& along, double along_sigma, double across_sigma) {
   const Vector2d across(-along.y(), along.x());
@@ -42,20 +19,18 @@ Eigen::Matrix2d AlongAcross(const Vector2d& along, double along_sigma, double ac
          across_sigma * across_sigma * across * across.transpose();
 }
 
-Pivot FromGeometry(const Scene& scene, const EdgePair& edges) {
-  const Chord mirror = MirrorLine(edges);
+Pivot FromGeometry(const Scene& scene, const EdgeMirror& mirror) {
+  const Estimate behind = BehindByGeometry(scene, mirror);
   Pivot pivot;
   pivot.source = "geometry";
-  const double along = (scene.pivot_px - mirror.point).dot(mirror.direction);
-  pivot.point_px = mirror.point + along * mirror.direction;
+  pivot.point_px = mirror.point_px - behind.value * mirror.direction;
   pivot.geometry_px = pivot.point_px;
-  // A blade that is not quite the other's mirror image moves the line by a few percent of the
-  // shank's width.
-  const double across_sigma = std::max(0.5, 0.05 * scene.shank_width_px);
-  // Over rendered scissors without a visible screw the waist errs by that much more than it seems.
-  constexpr double kWaistErrs = 1.3;
-  pivot.covariance_px2 =
-      AlongAcross(mirror.direction, kWaistErrs * scene.pivot_sigma_px, across_sigma);
+  // A blade that is not quite the other's mirror image moves the line: by a few percent of the
+  // shank's width, over photographs by two of the blades' length.
+  constexpr double kOfWidth = 0.05, kOfLength = 0.02;
+  const double across_sigma = std::max(
+      {0.5, kOfWidth * scene.shank_width_px, kOfLength * (mirror.length_px + behind.value)});
+  pivot.covariance_px2 = AlongAcross(mirror.direction, behind.sigma, across_sigma);
   return pivot;
 }
 
@@ -122,20 +97,23 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
   return clearest;
 }
 
-}  // namespace
-
-double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
-  const Chord a = ProximalChord(edges.left_px);
-  const Chord b = ProximalChord(edges.right_px);
-  const double left = Cross(a.direction, pivot_px - a.point);
-  const double right = -Cross(b.direction, pivot_px - b.point);
-  const double length =
-      0.5 * ((edges.left_px.back() - pivot_px).norm() + (edges.right_px.back() - pivot_px).norm());
-  return std::abs(left - right) / std::max(1.0, length);
+// What the picture says of the edges' overlap: without a screw, where the members cross.
+Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMirror& mirror) {
+  Estimate behind = BehindByWaist(search.scene, mirror);
+  if (pivot.source != "geometry") {
+    behind = {(mirror.point_px - pivot.point_px).dot(mirror.direction),
+              std::sqrt(mirror.direction.dot(pivot.covariance_px2 * mirror.direction))};
+  }
+  const double length = std::max(1.0, mirror.length_px + behind.value);
+  return {EdgeOverlap(search.edges, mirror.point_px - behind.value * mirror.direction),
+          mirror.sine * behind.sigma / length};
 }
 
+}  // namespace
+
 Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
-  Pivot pivot = FromGeometry(search.scene, search.edges);
+  const EdgeMirror mirror = MirrorOf(search.edges);
+  Pivot pivot = FromGeometry(search.scene, mirror);
   if (search.hint_px) {
     pivot.point_px = *search.hint_px;
     pivot.covariance_px2.setIdentity();
@@ -151,6 +129,9 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.source = "screw";
   }
   pivot.asymmetry = EdgeAsymmetry(search.edges, pivot.point_px);
+  const Estimate overlap = OverlapSeen(pivot, search, mirror);
+  pivot.overlap = overlap.value;
+  pivot.overlap_sigma = overlap.sigma;
   return pivot;
 }
 

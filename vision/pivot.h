@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/pivot_geometry.h"
 #include "vision/scale.h"
 #include "vision/scene.h"
 #include "vision/screw.h"
@@ -20,13 +21,9 @@ struct Pivot {
   Eigen::Matrix2d covariance_px2;
   std::string source;                                     // "screw", "geometry", "hint"
   double asymmetry = 0;                                   // see EdgeAsymmetry
+  double overlap = 0, overlap_sigma = 0;                  // see EdgeOverlap
   std::optional<Screw> screw;                             // if one is seen
   Eigen::Vector2d geometry_px = Eigen::Vector2d::Zero();  // where the blades alone put it
-};
-
-// The two cutting edges, from the crotch to the distal end.
-struct EdgePair {
-  std::vector<Eigen::Vector2d> left_px, right_px;
 };
 
 // What is known before the pivot is looked for; all in stored pixels.
@@ -36,16 +33,11 @@ struct PivotSearch {
   std::optional<Eigen::Vector2d> hint_px;
 };
 
-// In the plane of the edges: below the screw's head if that is seen; else the middle of the
-// overlap, moved onto the line about which the two edges mirror each other. How obliquely a head is
-// seen the markers say, where there are any.
+// In the plane of the edges: below the screw's head if that is seen; else on the line about which
+// the two edges mirror each other, where the members' overlap and the edges' usual overlap put it.
+// How obliquely a head is seen the markers say, where there are any.
 [[nodiscard]] Pivot FindPivot(const cv::Mat& grey,
                               const ScaleResult& scale,
                               const PivotSearch& search);
-
-// How differently the two edges pass by the pivot: difference of their signed distances from it
-// over the length of the blades. Blades in one plane pass alike (below 0.1); angled ones (Lister,
-// Potts) do not.
-[[nodiscard]] double EdgeAsymmetry(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
 }  // namespace bladecurve

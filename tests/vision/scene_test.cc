@@ -24,11 +24,12 @@ namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180;
 
 // The reason of a refusal, or "" if the picture is measured.
-std::string ReasonFor(const cv::Mat& picture) {
+std::string ReasonFor(const cv::Mat& picture, const SceneHints& hints = {}) {
   const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
   MeasureOptions options;
   options.scale.mm_per_px = 0.25;
+  options.hints = hints;
   try {
     (void)MeasurePhoto(file, options);
     return "";
@@ -143,6 +144,19 @@ TEST(FindScene, RefusesTwoPairsOfScissors) {
   cv::Mat two;
   cv::vconcat(one, one, two);
   EXPECT_EQ(ReasonFor(two), "several_scissors");
+}
+
+// Edges that run along the rays from the pivot do not cross: a clamp, a forceps, a needle holder.
+TEST(MeasurePhoto, RefusesJawsThatMeet) {
+  for (const double inclination : {0.005, 0.08}) {
+    SceneSpec spec = SmallScene();
+    spec.scissors.inclination = inclination;
+    spec.scissors.bow_mm = 0;
+    const RenderedPhoto photo = RenderScene(spec);
+    SceneHints hints;
+    hints.pivot_px = photo.truth.pivot_px;
+    EXPECT_EQ(ReasonFor(photo.bgr, hints), inclination < 0.04 ? "not_scissors" : "");
+  }
 }
 
 TEST(FindScene, MeasuresOnEveryBackdrop) {

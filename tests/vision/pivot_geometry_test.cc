@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot_geometry.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLength = 300;  // px, pivot to tips
+constexpr double kDegree = std::numbers::pi / 180;
+const Vector2d kPivot(400, 350);
+
+// Straight edges whose ends open by theta about the pivot, towards +x; each, continued, passes the
+// pivot at overlap * kLength on the other blade's side.
+EdgePair Edges(double theta_rad, double overlap) {
+  EdgePair edges;
+  const double inclination = std::asin(overlap);
+  for (const double side : {-1.0, 1.0}) {  // left seen towards the tips: up in the picture
+    const double to_end = side * 0.5 * theta_rad, along = to_end + side * inclination;
+    const Vector2d end = kPivot + kLength * Vector2d(std::cos(to_end), std::sin(to_end));
+    const Vector2d direction(std::cos(along), std::sin(along));
+    std::vector<Vector2d>& edge = side < 0 ? edges.left_px : edges.right_px;
+    const double crossing = side * (end - kPivot).y() / (side * direction.y());
+    for (double back = 0.97 * crossing; back >= 0; back -= 1)
+      edge.push_back(end - back * direction);
+  }
+  return edges;
+}
+
+Scene SceneWithWaistAt(double behind_tips_px, double sigma_px, double quality) {
+  Scene scene;
+  scene.pivot_px = kPivot + Vector2d(kLength - behind_tips_px, 0);
+  scene.pivot_sigma_px = sigma_px;
+  scene.quality = quality;
+  return scene;
+}
+
+double AlongError(const Estimate& behind, const EdgeMirror& mirror) {
+  return (mirror.point_px - behind.value * mirror.direction - kPivot).dot(mirror.direction);
+}
+
+TEST(EdgeOverlap, IsWhatTheEdgesPassThePivotBy) {
+  constexpr double kClose = 1e-3;
+  for (const double overlap : {0.0, 0.06, 0.12}) {
+    const EdgePair edges = Edges(30 * kDegree, overlap);
+    EXPECT_NEAR(EdgeOverlap(edges, kPivot), overlap, kClose);
+    EXPECT_NEAR(EdgeAsymmetry(edges, kPivot), 0, kClose);
+  }
+}
+
+TEST(EdgeAsymmetry, GrowsByTwiceThePivotsShareAside) {
+  constexpr double kClose = 0.005;
+  const EdgePair edges = Edges(20 * kDegree, 0.08);
+  const Vector2d aside = kPivot + Vector2d(0, 0.1 * kLength);
+  const double cosine = std::cos(10 * kDegree + std::asin(0.08));
+  EXPECT_NEAR(EdgeAsymmetry(edges, aside), 0.2 * cosine, kClose);
+  EXPECT_NEAR(EdgeOverlap(edges, aside), 0.08, kClose);
+}
+
+TEST(MirrorOf, FindsWhereTheEdgesCrossAndTheirLine) {
+  constexpr double kClose = 0.02;  // px
+  const EdgeMirror mirror = MirrorOf(Edges(30 * kDegree, 0.08));
+  EXPECT_NEAR(mirror.direction.x(), 1, 1e-6);
+  EXPECT_NEAR(mirror.point_px.y(), kPivot.y(), kClose);
+  const double sine = std::sin(15 * kDegree + std::asin(0.08));
+  EXPECT_NEAR(mirror.sine, sine, 1e-4);
+  EXPECT_NEAR(mirror.point_px.x() - kPivot.x(), 0.08 * kLength / sine, kClose);
+}
+
+TEST(BehindByGeometry, KeepsAWaistThatAgreesWithTheEdges) {
+  const EdgeMirror mirror = MirrorOf(Edges(30 * kDegree, 0.09));
+  const Scene scene = SceneWithWaistAt(kLength - 2, 4, 1);
+  const Estimate behind = BehindByGeometry(scene, mirror);
+  EXPECT_NEAR(AlongError(behind, mirror), 2, 0.1);
+  EXPECT_NEAR(behind.sigma, BehindByWaist(scene, mirror).sigma, 0.1);
+}
+
+// The waist a tenth of the length off either way: the edges know better, and the estimate says how
+// well.
+TEST(BehindByGeometry, IsDrawnWhereScissorsEdgesOverlap) {
+  for (const double off : {-0.1, 0.1}) {
+    const EdgeMirror mirror = MirrorOf(Edges(50 * kDegree, 0.09));
+    const Scene scene = SceneWithWaistAt((1 - off) * kLength, 0.06 * kLength, 1);
+    const Estimate behind = BehindByGeometry(scene, mirror);
+    EXPECT_LT(std::abs(AlongError(behind, mirror)), 0.06 * kLength);
+    EXPECT_LT(std::abs(AlongError(behind, mirror)), 2.5 * behind.sigma);
+    EXPECT_LT(behind.sigma, BehindByWaist(scene, mirror).sigma);
+  }
+}
+
+TEST(BehindByGeometry, StaysWithTheWaistWhereEdgesOpenTooLittleToTell) {
+  const EdgeMirror mirror = MirrorOf(Edges(2 * kDegree, 0.01));
+  const Scene scene = SceneWithWaistAt(0.8 * kLength, 10, 1);
+  EXPECT_EQ(BehindByGeometry(scene, mirror).value, BehindByWaist(scene, mirror).value);
+}
+
+TEST(BehindByWaist, KnowsLessWhereTheSilhouetteIsInDoubt) {
+  const EdgeMirror mirror = MirrorOf(Edges(30 * kDegree, 0.09));
+  const double sure = BehindByWaist(SceneWithWaistAt(kLength, 5, 1), mirror).sigma;
+  const double doubtful = BehindByWaist(SceneWithWaistAt(kLength, 5, 0.6), mirror).sigma;
+  EXPECT_GT(doubtful, sure + 0.15 * kLength);
+}
+
+}  // namespace
+}  // namespace bladecurve

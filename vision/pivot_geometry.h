@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "vision/scene.h"
+
+namespace bladecurve {
+
+// The two cutting edges, from the crotch to the distal end.
+struct EdgePair {
+  std::vector<Eigen::Vector2d> left_px, right_px;
+};
+
+// The line about which the two edges mirror each other: a point, where they cross if they do, and a
+// unit direction towards the tips. Of the edges only the proximal 60 % count, before a curved blade
+// bends away.
+struct EdgeMirror {
+  Eigen::Vector2d point_px, direction;
+  double sine = 0;       // of the angle between each edge and the line; 0: nearly parallel
+  double length_px = 0;  // from the point to the blades' ends, mean; negative: it lies beyond them
+};
+[[nodiscard]] EdgeMirror MirrorOf(const EdgePair& edges);
+
+// How differently the two edges pass by the pivot: difference of their signed distances from it
+// over the length of the blades. Blades in one plane pass alike (below 0.1); angled ones (Lister,
+// Potts) do not.
+[[nodiscard]] double EdgeAsymmetry(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
+
+// How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two
+// distances over the length of the blades. Blades that shear overlap by 0.055 to 0.125 (Mayo,
+// Metzenbaum, iris; straight and curved); the jaws of clamps, forceps and needle holders meet, and
+// do not: about 0.
+[[nodiscard]] double EdgeOverlap(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
+
+// A quantity and its standard uncertainty.
+struct Estimate {
+  double value = 0, sigma = 0;
+};
+
+// How far behind the mirror's point the place lies where the members cross, px: all that a
+// silhouette says of the pivot.
+[[nodiscard]] Estimate BehindByWaist(const Scene& scene, const EdgeMirror& mirror);
+
+// The same, held where the edges overlap as those of scissors do.
+[[nodiscard]] Estimate BehindByGeometry(const Scene& scene, const EdgeMirror& mirror);
+
+}  // namespace bladecurve
