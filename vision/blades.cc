@@ -135,12 +135,17 @@ void PlacePivot(const cv::Mat& filled, BladePair* pair) {
     spread += weight * std::pow((centers[k] - mean).dot(axis), 2);
   }
   pair->shank_width = narrowest;
-  pair->pivot = mean;
   // On scissors with a known screw the waist is off by 7 % of the overlap, rms; more where a shaped
   // joint moves it away from the middle.
-  const Vector2d middle = 0.5 * (pair->crotch + back);
-  pair->pivot_sigma = std::max(
-      {0.1 * narrowest, 0.07 * overlap.norm(), std::sqrt(spread / sum), (mean - middle).norm()});
+  const double length = overlap.norm(), middle = 0.5 * length, waist = (mean - back).dot(axis);
+  const double sigma =
+      std::max({0.1 * narrowest, 0.07 * length, std::sqrt(spread / sum), std::abs(waist - middle)});
+  // Before any waist is seen: Mayo, Metzenbaum and iris scissors have their screw there.
+  constexpr double kUsual = 0.45, kUsualSpread = 0.13;
+  const double of_waist = 1 / (sigma * sigma), of_usual = std::pow(kUsualSpread * length, -2);
+  const double along = (of_waist * waist + of_usual * kUsual * length) / (of_waist + of_usual);
+  pair->pivot = mean + (along - waist) * axis;
+  pair->pivot_sigma = 1 / std::sqrt(of_waist + of_usual);
 }
 
 // The part of a blade's far side that faces the tip: from the tip back to beside the crotch.

@@ -58,6 +58,11 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
+// Both blades, trimmed.
+struct Blades {
+  LocatedBlade upper, lower;
+};
+
 PlaneMap MapFor(const ScaleResult& scale,
                 const ScaleOptions& options,
                 const Pivot& pivot,
@@ -79,6 +84,21 @@ void RefuseOutOfPlane(const Pivot& pivot) {
       "pivot: the two cutting edges pass by the pivot at very different distances (" +
           std::to_string(pivot.asymmetry).substr(0, 4) +
           " of the blade's length); angled or bent blades cannot be measured from one view");
+}
+
+// Blades that open little do not say how far behind them they turn.
+void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
+  constexpr double kVaguest = 0.14;  // of the blades' length; theta is then good to a seventh
+  if (pivot.source != "geometry") return;
+  const double length_px = 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
+                                  (blades.lower.end.point_px - pivot.point_px).norm());
+  const double sigma_px = std::sqrt(pivot.covariance_px2.trace());
+  if (sigma_px <= kVaguest * length_px) return;
+  throw Refused(Reason::kAmbiguousPivot,
+                "pivot: no screw is seen, and the silhouette places it to " +
+                    std::to_string(std::lround(100 * sigma_px / length_px)) +
+                    " % of the blades' length only; say where it is: --pivot X,Y; or open the "
+                    "scissors wider");
 }
 
 void RefuseJaws(const Pivot& pivot) {
@@ -134,11 +154,6 @@ void CollectWarnings(const Scene& scene,
   if (lower.edge.ambiguity > kSeveralTransitions) warnings->push_back("lower_edge_ambiguous");
 }
 
-// Both blades, trimmed.
-struct Blades {
-  LocatedBlade upper, lower;
-};
-
 Blades LocateAndTrim(const Photo& photo,
                      const ScaleResult& scale,
                      const Scene& scene,
@@ -171,6 +186,7 @@ Pivot LocatePivot(const Photo& photo,
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
   RefuseOutOfPlane(pivot);
   RefuseJaws(pivot);
+  RefuseUnknownPivot(pivot, blades);
   log->Ran("pivot", pivot.source);
   return pivot;
 }

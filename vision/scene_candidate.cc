@@ -69,8 +69,9 @@ bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredH
     if (towards.normalized().dot(*hints.tips_direction) < 0.5) return false;
   }
   if (hints.pivot_px) {
+    // Of narrow scissors the silhouette puts the pivot a third of the blades' length off.
     const double off = (at.FullFromSmall(pair.pivot) - *hints.pivot_px).norm();
-    if (off > 2 * std::max(pair.shank_width, 0.2 * pair.first.length) * at.full_px_per_px())
+    if (off > std::max(2 * pair.shank_width, 0.7 * pair.first.length) * at.full_px_per_px())
       return false;
   }
   return true;

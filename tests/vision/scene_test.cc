@@ -159,6 +159,20 @@ TEST(MeasurePhoto, RefusesJawsThatMeet) {
   }
 }
 
+// Without a screw the edges tell where they turn if they open wide; else the user must.
+TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
+  SceneSpec spec = SmallScene();
+  spec.scissors.screw_visible = false;
+  spec.theta_rad = 50 * kDegree;
+  EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "");
+  spec.theta_rad = 7 * kDegree;
+  const RenderedPhoto narrow = RenderScene(spec);
+  EXPECT_EQ(ReasonFor(narrow.bgr), "ambiguous_pivot");
+  SceneHints hints;
+  hints.pivot_px = narrow.truth.pivot_px;
+  EXPECT_EQ(ReasonFor(narrow.bgr, hints), "");
+}
+
 TEST(FindScene, MeasuresOnEveryBackdrop) {
   for (const Backdrop backdrop : {Backdrop::kPaper,
                                   Backdrop::kCloth,
