@@ -111,27 +111,37 @@ std::optional<EndSeen> LookAlong(
 
 struct Arc {
   double start = 0, radius = 0;
-  double sunk =
-      0;  // how deep the true edge lies below the one that was followed (a shadow beside it)
-  double score = 0;  // lines explained less lines contradicted, beyond the penalty for sinking
+  double score = 0;  // lines explained less lines contradicted, less what the edge denies
   double scatter = 0;
   int seen = 0;
 };
 
-// The arc of this radius and depth that explains most of the ends seen.
-Arc BestArc(const std::vector<EndSeen>& ends, double radius, double sunk) {
-  constexpr double kOnArc = 0.7;        // px
-  constexpr double kDeepest = 1.25;     // radii: beyond the crown another side of the tip begins
-  constexpr double kSunkPenalty = 0.8;  // lines a px
+// Points of the followed edge that go on straight where the arc has left it already. Past the crown
+// there is no blade to follow.
+int Denials(const std::vector<EndSeen>& followed, const Arc& arc) {
+  constexpr double kClearly = 1;  // px
+  return static_cast<int>(
+      std::count_if(followed.begin(), followed.end(), [&](const EndSeen& point) {
+        const double along = point.position - arc.start;
+        if (along <= 0 || along >= arc.radius) return false;
+        const double depth = arc.radius - std::sqrt(arc.radius * arc.radius - along * along);
+        return point.depth < depth - kClearly;
+      }));
+}
+
+// The arc of this radius that explains most of the ends seen.
+Arc BestArc(const std::vector<EndSeen>& ends, const std::vector<EndSeen>& followed, double radius) {
+  constexpr double kOnArc = 0.7;     // px
+  constexpr double kDeepest = 1.25;  // radii: beyond the crown another side of the tip begins
+  constexpr double kDenialPenalty = 0.5;
   std::vector<double> starts;
   for (const EndSeen& end : ends) {
-    const double depth = end.depth - sunk;
-    if (depth < 0.1 * radius || depth > kDeepest * radius) continue;
-    const double rise = radius - depth;
+    if (end.depth < 0.1 * radius || end.depth > kDeepest * radius) continue;
+    const double rise = radius - end.depth;
     starts.push_back(end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise)));
   }
   if (starts.size() < 5) return {};
-  Arc arc{Median(starts), radius, sunk, 0, 0, 0};
+  Arc arc{Median(starts), radius, 0, 0, 0};
   std::vector<double> off;
   for (const double start : starts) {
     if (std::abs(start - arc.start) < kOnArc) off.push_back(std::abs(start - arc.start));
@@ -139,8 +149,8 @@ Arc BestArc(const std::vector<EndSeen>& ends, double radius, double sunk) {
   if (off.size() < 5) return {};
   arc.seen = static_cast<int>(off.size());
   arc.scatter = 1.4826 * Median(off);
-  arc.score =
-      2.0 * arc.seen - static_cast<double>(starts.size()) - arc.scatter - kSunkPenalty * sunk;
+  arc.score = 2.0 * arc.seen - static_cast<double>(starts.size()) - arc.scatter -
+              kDenialPenalty * Denials(followed, arc);
   return arc;
 }
 
@@ -159,16 +169,18 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
     if (end) ends.push_back(*end);
   }
   if (ends.size() < 6) return std::nullopt;
-  constexpr double kMostSunk = 5;  // px
+  std::vector<EndSeen> followed;
+  for (const Vector2d& p : edge) {
+    const double position = (p - axis.origin).dot(axis.along);
+    followed.push_back({(p - axis.At(position, 0)).dot(axis.inwards), position});
+  }
   Arc best;
   for (double radius = 2; radius <= deepest; radius *= 1.06) {
-    for (double sunk = 0; sunk <= kMostSunk; sunk += 0.5) {
-      const Arc arc = BestArc(ends, radius, sunk);
-      if (arc.score > best.score) best = arc;
-    }
+    const Arc arc = BestArc(ends, followed, radius);
+    if (arc.score > best.score) best = arc;
   }
   if (best.seen == 0) return std::nullopt;
-  return TipCap{axis.At(best.start, best.sunk), best.radius, best.scatter, best.seen};
+  return TipCap{axis.At(best.start, 0), best.radius, best.scatter, best.seen};
 }
 
 TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {

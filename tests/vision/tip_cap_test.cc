@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/tip_cap.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kEdge = 100, kTip = 300, kWidth = 40;  // px: the edge's row, the tip's column
+
+// A blade above the row kEdge, its tip an arc of `radius` that ends at kTip, its back slanting.
+cv::Mat Blade(double radius) {
+  constexpr int kFiner = 8;
+  cv::Mat fine(160 * kFiner, 340 * kFiner, CV_8UC1, cv::Scalar(200));
+  const auto at = [](double x, double y) {
+    return cv::Point(cvRound((x + 0.5) * kFiner), cvRound((y + 0.5) * kFiner));
+  };
+  const double center = kTip - radius;
+  const std::vector<cv::Point> body{at(-10, kEdge),
+                                    at(center, kEdge),
+                                    at(center, kEdge - 2 * radius),
+                                    at(20, kEdge - kWidth),
+                                    at(-10, kEdge - kWidth)};
+  cv::fillPoly(fine, std::vector<std::vector<cv::Point>>{body}, 80);
+  cv::circle(fine, at(center, kEdge - radius), cvRound(radius * kFiner), 80, cv::FILLED);
+  cv::Mat picture;
+  cv::resize(fine, picture, {340, 160}, 0, 0, cv::INTER_AREA);
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  return picture;
+}
+
+// Straight along a row, from the crotch to the tip's column.
+std::vector<Vector2d> EdgeAlong(double row) {
+  std::vector<Vector2d> edge;
+  for (double x = 20; x <= kTip; x += 1) edge.emplace_back(x, row);
+  return edge;
+}
+
+const TipSearch kSearch{Vector2d(kTip, kEdge - 5), 12, kWidth, true};
+
+TEST(FitTipCap, EndsWhereTheArcBegins) {
+  constexpr double kAlong = 1.5, kAcross = 0.1, kRadius = 2;  // px
+  for (const double radius : {5.0, 8.0, 12.0}) {
+    const auto cap = FitTipCap(Blade(radius), EdgeAlong(kEdge), kSearch);
+    ASSERT_TRUE(cap) << radius;
+    EXPECT_NEAR(cap->end_px.x(), kTip - radius, kAlong) << radius;
+    EXPECT_NEAR(cap->end_px.y(), kEdge, kAcross) << radius;
+    EXPECT_NEAR(cap->radius_px, radius, kRadius) << radius;
+  }
+}
+
+// A facet's border crosses the tip as an arc that leaves the edge long before it ends.
+TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
+  constexpr double kAlong = 3;  // px
+  cv::Mat picture = Blade(6);
+  cv::Mat facet = cv::Mat::zeros(picture.size(), CV_8UC1);
+  cv::circle(facet, {286 - 14, 100 - 16}, 16, 255, cv::FILLED);
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    if (at[1] > 272 && value < 120 && facet.at<uchar>(at[0], at[1]) == 0) value += 12;
+  });
+  const auto cap = FitTipCap(picture, EdgeAlong(kEdge), kSearch);
+  ASSERT_TRUE(cap);
+  EXPECT_NEAR(cap->end_px.x(), kTip - 6, kAlong);
+}
+
+}  // namespace
+}  // namespace bladecurve
