@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "samples/parallel.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {

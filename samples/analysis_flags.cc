@@ -11,10 +11,10 @@
 #include <initializer_list>
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "samples/flag_values.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -139,7 +139,7 @@ FitOptions FitFromFlags(const AnalysisFlags& flags) {
 }
 
 int ThreadsFromFlag(const std::optional<std::string>& text) {
-  if (!text) return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (!text) return UsableThreads();
   const int threads = ParseWholeNumber("--threads", *text);
   RequirePositive("--threads", threads);
   return threads;
@@ -196,7 +196,8 @@ void AddRunFlags(CLI::App& command, AnalysisFlags* flags) {
   command.add_option("--plan", flags->plan, "auto: leave out what a scene does not need; full")
       ->check(CLI::IsMember({"auto", "full"}));
   command.add_option("--debug", flags->debug, "Write a picture of every stage into this folder");
-  command.add_option("--threads", flags->threads, "How many photographs at a time");
+  command.add_option(
+      "--threads", flags->threads, "How many photographs, or parts of one, at a time");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "samples/catalog_rows_file.h"
 #include "samples/fit_overlay.h"
 #include "samples/output_files.h"
-#include "samples/parallel.h"
+#include "vision/parallel.h"
 #include "vision/png_writer.h"
 
 namespace bladecurve {

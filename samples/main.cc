@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -110,6 +111,7 @@ int Run(int argc, char** argv) {
 }  // namespace bladecurve
 
 int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // photographs and their parts are shared out by ParallelFor alone
   try {
     return bladecurve::Run(argc, argv);
   } catch (const std::exception& error) {

@@ -17,12 +17,12 @@
 #include "model/scratch_folder.h"
 #include "samples/commands.h"
 #include "samples/output_files.h"
-#include "samples/parallel.h"
 #include "samples/validate_blade.h"
 #include "samples/validation_plot.h"
 #include "samples/validation_run.h"
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "samples/flag_values.h"
-#include "samples/parallel.h"
 #include "samples/spelling.h"
 #include "tests/samples/program_run.h"
 
@@ -101,27 +100,6 @@ TEST(ParseNumbers, TakesSignsAndExponents) {
 TEST(ParseNumbers, RefusesGapsSpacesAndInfinity) {
   for (const char* text : {"", ",", "1,", "1, 2", "inf", "1;2", "0x10", "1..2"}) {
     EXPECT_THROW((void)ParseNumbers("--f", text), std::invalid_argument) << text;
-  }
-}
-
-TEST(ParallelFor, CallsEachOnceWhateverTheThreads) {
-  for (const int threads : {1, 2, 7, 100}) {
-    std::vector<int> calls(50, 0);
-    ParallelFor(50, threads, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
-    EXPECT_EQ(calls, std::vector<int>(50, 1)) << threads << " threads";
-  }
-}
-
-TEST(ParallelFor, RethrowsTheFirstByIndex) {
-  for (const int threads : {1, 4}) {
-    try {
-      ParallelFor(20, threads, [](int i) {
-        if (i % 7 == 3) throw std::runtime_error(std::to_string(i));
-      });
-      FAIL() << "nothing thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "3") << threads << " threads";
-    }
   }
 }
 
