@@ -7,6 +7,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/block_means.h"
+
 namespace bladecurve {
 namespace {
 
@@ -88,15 +90,19 @@ ScaledWindow CutWindow(const cv::Mat& grey,
                      inside.x - wanted.x,
                      wanted.br().x - inside.br().x,
                      cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
-  piece.convertTo(window.grey, CV_32F);
+  // Whole factors first: what remains has a fraction of the pixels, and the same mean over them.
+  const int whole = std::max(1, static_cast<int>(scale));
+  window.grey = BlockMeans(piece, whole);
   window.scale = scale;
   // cv::resize keeps the outer borders of the pictures together, so pixel centres shift by half a
   // pixel of each.
   window.origin = Eigen::Vector2d(wanted.x, wanted.y).array() + 0.5 * (scale - 1);
-  if (scale != 1) {
-    const int method = scale > 1 ? cv::INTER_AREA : cv::INTER_CUBIC;
-    cv::resize(window.grey, piece, cv::Size(), 1 / scale, 1 / scale, method);
-    window.grey = piece;
+  const double rest = scale / whole;
+  if (rest != 1) {
+    const int method = rest > 1 ? cv::INTER_AREA : cv::INTER_CUBIC;
+    cv::Mat resized;
+    cv::resize(window.grey, resized, cv::Size(), 1 / rest, 1 / rest, method);
+    window.grey = resized;
   }
   return window;
 }

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/block_means.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "vision/parallel.h"
+
+namespace bladecurve {
+
+namespace {
+
+void AddPixels(const uchar* pixels, std::size_t count, std::uint16_t* sums) {
+  for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + pixels[i]);
+}
+
+// Rows [first, last) of the means.
+void FillRows(const cv::Mat& grey, int factor, int first, int last, cv::Mat* means) {
+  const float share = 1.0F / static_cast<float>(factor * factor);
+  std::vector<std::uint16_t> sums(static_cast<std::size_t>(means->cols * factor));
+  for (int row = first; row < last; ++row) {
+    std::fill(sums.begin(), sums.end(), std::uint16_t{0});
+    for (int k = 0; k < factor; ++k)
+      AddPixels(grey.ptr<uchar>(row * factor + k), sums.size(), sums.data());
+    const std::uint16_t* block = sums.data();
+    float* const out = means->ptr<float>(row);
+    for (int column = 0; column < means->cols; ++column, block += factor)
+      out[column] = share * static_cast<float>(std::accumulate(block, block + factor, 0));
+  }
+}
+
+}  // namespace
+
+cv::Mat BlockMeans(const cv::Mat& grey, int factor) {
+  constexpr int kLargest = 257;  // so many pixels of 255 are the most that 16 bits hold
+  if (factor < 1 || factor > kLargest) {
+    throw std::invalid_argument("BlockMeans: factor is " + std::to_string(factor) +
+                                "; it must be 1 to 257");
+  }
+  cv::Mat means;
+  if (factor == 1) {
+    grey.convertTo(means, CV_32F);
+    return means;
+  }
+  constexpr int kBand = 128;  // rows; fewer are not worth a thread
+  means.create(grey.rows / factor, grey.cols / factor, CV_32FC1);
+  ParallelFor((means.rows + kBand - 1) / kBand, [&](int band) {
+    FillRows(grey, factor, band * kBand, std::min((band + 1) * kBand, means.rows), &means);
+  });
+  return means;
+}
+
+}  // namespace bladecurve
