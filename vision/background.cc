@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bladecurve {
 namespace {
@@ -12,8 +13,9 @@ namespace {
 constexpr int kTerms = BackgroundModel::kTerms;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
-constexpr int kSamples = 6000;   // enough for 10 terms; more costs time and changes nothing
-constexpr int kIterations = 15;  // reweighting has settled well before
+constexpr int kSamples = 6000;     // enough for 10 terms; more costs time and changes nothing
+constexpr int kIterations = 15;    // reweighting has settled before, but for huge foregrounds
+constexpr double kSettled = 0.02;  // of the scatter: no threshold tells such a change
 constexpr double kScatterFloor =
     0.5;  // grey or Lab units: rounding and JPEG noise of a clean catalogue picture
 
@@ -93,6 +95,28 @@ class RowOfBackground {
   float c0_, c1_, c2_, c3_, x0_, dx_;
 };
 
+// The number of channels is known to the compiler: it takes many pixels at a time.
+template <int kChannels>
+cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, const Window& window) {
+  cv::Mat distance(image.size(), CV_32FC1);
+  for (int row = 0; row < image.rows; ++row) {
+    const float* pixels = image.ptr<float>(row);
+    float* out = distance.ptr<float>(row);
+    std::fill(out, out + image.cols, 0.0f);
+    for (int c = 0; c < kChannels; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const RowOfBackground expected(background.coefficients[channel], window, image.size(), row);
+      const auto inverse = static_cast<float>(1 / background.scatter[channel]);
+      for (int col = 0; col < image.cols; ++col) {
+        const float off = (pixels[col * kChannels + c] - expected(col)) * inverse;
+        out[col] += off * off;
+      }
+    }
+  }
+  cv::sqrt(distance, distance);
+  return distance;
+}
+
 }  // namespace
 
 BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
@@ -103,17 +127,22 @@ BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
   Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(kTerms, channels);
   BackgroundModel model;
   model.scatter.assign(static_cast<std::size_t>(channels), kScatterFloor);
-  for (int iteration = 0; iteration < kIterations && count >= kTerms; ++iteration) {
+  double change = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kIterations && change > kSettled && count >= kTerms; ++i) {
     const Eigen::Matrix<double, kTerms, Eigen::Dynamic> weighted =
         samples.terms.transpose() * weights.asDiagonal();
     const Eigen::Matrix<double, kTerms, kTerms> normal =
         weighted * samples.terms + 1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+    const Eigen::MatrixXd before = coefficients;
     coefficients = normal.ldlt().solve(weighted * samples.values);
     const Eigen::MatrixXd residuals = samples.values - samples.terms * coefficients;
     Eigen::VectorXd squared = Eigen::VectorXd::Zero(count);
+    change = 0;
     for (int c = 0; c < channels; ++c) {
       const double scatter = RobustScatter(residuals.col(c), weights);
       model.scatter[static_cast<std::size_t>(c)] = scatter;
+      // No term exceeds 1 in the picture, so the background has not moved by more anywhere.
+      change = std::max(change, (coefficients - before).col(c).lpNorm<1>() / scatter);
       squared += (residuals.col(c) / scatter).cwiseAbs2();
     }
     // Squared Cauchy weights: scissors that cover a third of the picture have no say.
@@ -130,27 +159,8 @@ BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
 cv::Mat DistanceFromBackground(const cv::Mat& image,
                                const BackgroundModel& background,
                                const Window& window) {
-  const int channels = image.channels();
-  cv::Mat distance(image.size(), CV_32FC1);
-  std::vector<float> squared(static_cast<std::size_t>(image.cols));
-  for (int row = 0; row < image.rows; ++row) {
-    std::fill(squared.begin(), squared.end(), 0.0f);
-    const float* pixels = image.ptr<float>(row);
-    for (int c = 0; c < channels; ++c) {
-      const auto channel = static_cast<std::size_t>(c);
-      const RowOfBackground expected(background.coefficients[channel], window, image.size(), row);
-      const auto inverse = static_cast<float>(1 / background.scatter[channel]);
-      for (int col = 0; col < image.cols; ++col) {
-        const float off = (pixels[col * channels + c] - expected(col)) * inverse;
-        squared[static_cast<std::size_t>(col)] += off * off;
-      }
-    }
-    float* out = distance.ptr<float>(row);
-    for (int col = 0; col < image.cols; ++col) {
-      out[col] = std::sqrt(squared[static_cast<std::size_t>(col)]);
-    }
-  }
-  return distance;
+  return image.channels() == 1 ? DistanceIn<1>(image, background, window)
+                               : DistanceIn<3>(image, background, window);
 }
 
 cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr,

@@ -57,15 +57,54 @@ void GradeBlades(BladePair* pair) {
         pair);
 }
 
-// Whether the rest is what blades hang on: each blade goes on, through the crossing, as the
-// opposite shank.
-void GradeMembers(const ShankEnd& shank_first, const ShankEnd& shank_second, BladePair* pair) {
+// The ends of the four limbs, as indices into the contour and as points.
+struct Ends {
+  int tip_first_at = 0, tip_second_at = 0, shank_first_at = 0, shank_second_at = 0;
+  Vector2d tip_first, tip_second, shank_first, shank_second;
+};
+
+// Clockwise: back, shank of the second blade, first blade, gap, second blade, shank of the first,
+// back. std::nullopt where a limb has no length.
+std::optional<Ends> FindEnds(const Outline& outline, const Crossing& at) {
+  constexpr double kShortest = 8;  // px, of a blade
+  const int gap = at.gap->far, back = at.back->far;
+  const Vector2d crotch = outline.At(gap), shank_crotch = outline.At(back);
+  const Vector2d axis = (crotch - shank_crotch).normalized();
+  Ends ends;
+  ends.tip_first_at = FurthestAhead(outline, back, gap, crotch, axis);
+  ends.tip_second_at = FurthestAhead(outline, gap, back, crotch, axis);
+  ends.shank_first_at = FurthestAhead(outline, gap, back, shank_crotch, -axis);
+  ends.shank_second_at = FurthestAhead(outline, back, gap, shank_crotch, -axis);
+  if (std::min({ends.tip_first_at, ends.tip_second_at, ends.shank_first_at, ends.shank_second_at}) <
+      0)
+    return std::nullopt;
+  ends.tip_first = outline.At(ends.tip_first_at);
+  ends.tip_second = outline.At(ends.tip_second_at);
+  ends.shank_first = outline.At(ends.shank_first_at);
+  ends.shank_second = outline.At(ends.shank_second_at);
+  if (std::min((ends.tip_first - crotch).norm(), (ends.tip_second - crotch).norm()) < kShortest)
+    return std::nullopt;
+  return ends;
+}
+
+// Whether each blade goes on, through the crossing, as the opposite shank.
+void GradeLayout(const Ends& ends, BladePair* pair) {
   const Vector2d center = 0.5 * (pair->crotch + *pair->shank_crotch);
-  const auto straightness = [&](const Vector2d& tip, const ShankEnd& shank) {
-    return -(tip - center).normalized().dot((shank.point - center).normalized());
+  const auto straightness = [&](const Vector2d& tip, const Vector2d& shank) {
+    return -(tip - center).normalized().dot((shank - center).normalized());
   };
-  const double straight = std::min(straightness(pair->first.tip, shank_first),
-                                   straightness(pair->second.tip, shank_second));
+  const double straight = std::min(straightness(ends.tip_first, ends.shank_first),
+                                   straightness(ends.tip_second, ends.shank_second));
+  const double blade =
+      std::max((ends.tip_first - pair->crotch).norm(), (ends.tip_second - pair->crotch).norm());
+  Apply({{Grade(-straight, -0.88, -0.55), "blades and shanks do not line up"},
+         {Grade((pair->crotch - *pair->shank_crotch).norm() / blade, 3.0, 5.0),
+          "the blades are short against their overlap"}},
+        pair);
+}
+
+// Whether the rest is what blades hang on.
+void GradeShanks(const ShankEnd& shank_first, const ShankEnd& shank_second, BladePair* pair) {
   const auto ring = [](const ShankEnd& shank) {
     return shank.cut_off ? 0.9 : 1 - Grade(shank.flare, 1.0, 1.6) * 0.8;
   };
@@ -73,10 +112,7 @@ void GradeMembers(const ShankEnd& shank_first, const ShankEnd& shank_second, Bla
   const auto reach = [](const ShankEnd& shank) { return shank.cut_off ? 1e9 : shank.length; };
   const double shorter_shank = std::min(reach(shank_first), reach(shank_second));
   const double blade = std::max(pair->first.length, pair->second.length);
-  Apply({{Grade(-straight, -0.88, -0.55), "blades and shanks do not line up"},
-         {ring(shank_first) * ring(shank_second), "no rings"},
-         {Grade((pair->crotch - *pair->shank_crotch).norm() / blade, 3.0, 5.0),
-          "the blades are short against their overlap"},
+  Apply({{ring(shank_first) * ring(shank_second), "no rings"},
          {0.3 + 0.7 * Grade(-shorter_shank / blade, -0.8, -0.2), "a shank is short"}},
         pair);
 }
@@ -158,47 +194,45 @@ std::vector<Vector2d> AheadOf(std::vector<Vector2d> arc,
   return arc;
 }
 
+void DescribeBlades(const Silhouette& silhouette,
+                    const Crossing& at,
+                    const Ends& ends,
+                    BladePair* pair) {
+  const Outline outline(silhouette.contour);
+  const Vector2d axis = (pair->crotch - *pair->shank_crotch).normalized();
+  std::vector<Vector2d> inner_first = outline.Arc(ends.tip_first_at, at.gap->far);
+  std::reverse(inner_first.begin(), inner_first.end());
+  std::vector<Vector2d> outer_first = outline.Arc(ends.shank_second_at, ends.tip_first_at);
+  std::reverse(outer_first.begin(), outer_first.end());
+  pair->first = DescribeBlade(
+      silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair->crotch, axis));
+  pair->second = DescribeBlade(
+      silhouette,
+      outline.Arc(at.gap->far, ends.tip_second_at),
+      AheadOf(outline.Arc(ends.tip_second_at, ends.shank_first_at), pair->crotch, axis));
+}
+
 std::optional<BladePair> PairAt(const Silhouette& silhouette,
                                 const cv::Mat& hidden,
                                 const Crossing& at) {
   const Outline outline(silhouette.contour);
-  const int gap = at.gap->far;
+  const std::optional<Ends> ends = FindEnds(outline, at);
+  if (!ends) return std::nullopt;
   const int back = at.back->far;
   BladePair pair;
   pair.quality = 1;
-  pair.crotch = outline.At(gap);
+  pair.crotch = outline.At(at.gap->far);
   pair.shank_crotch = outline.At(back);
-  const Vector2d axis = (pair.crotch - *pair.shank_crotch).normalized();
-  // Clockwise: back, shank of the second blade, first blade, gap, second blade, shank of the first,
-  // back.
-  const int tip_first = FurthestAhead(outline, back, gap, pair.crotch, axis);
-  const int tip_second = FurthestAhead(outline, gap, back, pair.crotch, axis);
-  const int end_first = FurthestAhead(outline, gap, back, *pair.shank_crotch, -axis);
-  const int end_second = FurthestAhead(outline, back, gap, *pair.shank_crotch, -axis);
-  if (std::min({tip_first, tip_second, end_first, end_second}) < 0) return std::nullopt;
-  std::vector<Vector2d> inner_first = outline.Arc(tip_first, gap);
-  std::reverse(inner_first.begin(), inner_first.end());
-  std::vector<Vector2d> outer_first = outline.Arc(end_second, tip_first);
-  std::reverse(outer_first.begin(), outer_first.end());
-  pair.first = DescribeBlade(
-      silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair.crotch, axis));
-  pair.second = DescribeBlade(silhouette,
-                              outline.Arc(gap, tip_second),
-                              AheadOf(outline.Arc(tip_second, end_first), pair.crotch, axis));
-  if (std::min(pair.first.length, pair.second.length) < 8) return std::nullopt;
+  GradeLayout(*ends, &pair);
+  if (pair.quality <= 0) return std::nullopt;  // most inlets: they need no closer look
+  DescribeBlades(silhouette, at, *ends, &pair);
   GradeBlades(&pair);
   if (pair.quality <= 0) return std::nullopt;
-  GradeMembers(DescribeShank(silhouette,
-                             hidden,
-                             outline.Arc(tip_second, back),
-                             outline.At(end_first),
-                             *pair.shank_crotch),
-               DescribeShank(silhouette,
-                             hidden,
-                             outline.Arc(back, tip_first),
-                             outline.At(end_second),
-                             *pair.shank_crotch),
-               &pair);
+  const std::vector<Vector2d> first = outline.Arc(ends->tip_second_at, back);
+  const std::vector<Vector2d> second = outline.Arc(back, ends->tip_first_at);
+  GradeShanks(DescribeShank(silhouette, hidden, first, ends->shank_first, *pair.shank_crotch),
+              DescribeShank(silhouette, hidden, second, ends->shank_second, *pair.shank_crotch),
+              &pair);
   if (pair.quality <= 0) return std::nullopt;
   PlacePivot(silhouette.filled, &pair);
   const double wider = std::max(pair.first.width, pair.second.width);

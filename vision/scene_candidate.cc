@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "vision/closed_shape.h"
 #include "vision/robust_statistics.h"
@@ -77,6 +79,16 @@ bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredH
   return true;
 }
 
+// Fills in `agreeing`.
+void CountAgreeing(std::vector<Candidate>* candidates) {
+  for (Candidate& a : *candidates) {
+    a.agreeing = static_cast<int>(
+        std::count_if(candidates->begin(), candidates->end(), [&](const Candidate& b) {
+          return SameBlades(a, b);
+        }));
+  }
+}
+
 }  // namespace
 
 double SizeOf(const BladePair& pair) { return std::max(pair.first.length, pair.second.length); }
@@ -90,16 +102,16 @@ bool SameBlades(const Candidate& a, const Candidate& b) {
          !apart(a.pair.second.tip, b.pair.second.tip);
 }
 
-void CollectFrom(const cv::Mat& mask,
-                 const Candidate& like,
-                 const cv::Mat& hidden,
-                 const StoredHints& hints,
-                 Rung* rung) {
+Rung SeenIn(const cv::Mat& mask,
+            const Candidate& like,
+            const cv::Mat& hidden,
+            const StoredHints& hints) {
   constexpr int kMostThings = 4;         // a ruler, a card, a label, and the scissors
   constexpr double kWorthKeeping = 0.2;  // what clutter reaches
-  bool closed = false;
+  constexpr double kPlainlyOpen = 0.8;
+  Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
-    closed = closed || LooksClosed(silhouette);
+    double quality = 0;
     for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
       if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
       Candidate candidate = like;
@@ -107,20 +119,19 @@ void CollectFrom(const cv::Mat& mask,
       candidate.pair = std::move(pair);
       DoubtSoftEdges(&candidate);
       candidate.mask = mask;
-      rung->candidates.push_back(std::move(candidate));
+      quality = candidate.pair.quality;
+      seen.candidates.push_back(std::move(candidate));
       break;  // the best pair of each thing
     }
+    if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
   }
-  if (closed) ++rung->closed;
+  return seen;
 }
 
-void CountAgreeing(std::vector<Candidate>* candidates) {
-  for (Candidate& a : *candidates) {
-    a.agreeing = static_cast<int>(
-        std::count_if(candidates->begin(), candidates->end(), [&](const Candidate& b) {
-          return SameBlades(a, b);
-        }));
-  }
+void Add(Rung seen, Rung* rung) {
+  std::move(seen.candidates.begin(), seen.candidates.end(), std::back_inserter(rung->candidates));
+  rung->closed += seen.closed;
+  CountAgreeing(&rung->candidates);
 }
 
 }  // namespace bladecurve

@@ -38,15 +38,14 @@ struct Rung {
   cv::Mat distance;  // from the background, or how sharply it is walled in; CV_32FC1
 };
 
-// Adds what one mask shows and does not contradict the hints; `like` gives picture, method and
+// What one mask shows and does not contradict the hints; `like` gives picture, method and
 // threshold. `hidden` as for FindBladePairs.
-void CollectFrom(const cv::Mat& mask,
-                 const Candidate& like,
-                 const cv::Mat& hidden,
-                 const StoredHints& hints,
-                 Rung* rung);
+[[nodiscard]] Rung SeenIn(const cv::Mat& mask,
+                          const Candidate& like,
+                          const cv::Mat& hidden,
+                          const StoredHints& hints);
 
-// Fills in `agreeing`.
-void CountAgreeing(std::vector<Candidate>* candidates);
+// Adds what another mask of the same rung shows, and counts anew which candidates agree.
+void Add(Rung seen, Rung* rung);
 
 }  // namespace bladecurve

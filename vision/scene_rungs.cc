@@ -3,10 +3,13 @@
 #include "vision/scene_rungs.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "vision/flood.h"
+#include "vision/parallel.h"
 #include "vision/silhouette.h"
 
 namespace bladecurve {
@@ -17,8 +20,9 @@ namespace {
 constexpr double kThresholds[] = {8, 16, 4, 24, 6, 12, 3, 32, 2, 48, 64};
 
 // So many thresholds show the same good blades that more of them would change nothing.
+constexpr int kEnough = 4;
+
 bool Settled(const std::vector<Candidate>& candidates) {
-  constexpr int kEnough = 5;
   constexpr double kGood = 0.9;
   constexpr double kSharp = 0.5;
   return std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) {
@@ -26,23 +30,45 @@ bool Settled(const std::vector<Candidate>& candidates) {
   });
 }
 
+// What the masks 0 .. count - 1 show, each seen by see(i).
+template <typename See>
+std::vector<Rung> SeeAll(int count, const See& see) {
+  std::vector<Rung> seen(static_cast<std::size_t>(count));
+  ParallelFor(count, [&](int i) { seen[static_cast<std::size_t>(i)] = see(i); });
+  return seen;
+}
+
+std::vector<double> ThresholdsUpTo(const cv::Mat& distance) {
+  double most = 0;
+  cv::minMaxLoc(distance, nullptr, &most);
+  std::vector<double> thresholds(std::begin(kThresholds), std::end(kThresholds));
+  std::erase_if(thresholds, [&](double threshold) { return threshold > most; });
+  return thresholds;
+}
+
+// Threshold after threshold until they settle. How many are looked at together changes nothing.
 Rung ThresholdAll(const cv::Mat& distance,
                   const cv::Mat& hidden,
                   const Candidate& like,
                   const StoredHints& hints) {
   cv::Mat smooth;
   cv::GaussianBlur(distance, smooth, {}, 0.8);
-  double most = 0;
-  cv::minMaxLoc(smooth, nullptr, &most);
+  const std::vector<double> thresholds = ThresholdsUpTo(smooth);
+  const int all = static_cast<int>(thresholds.size());
   Rung rung;
   rung.distance = distance;
-  for (const double threshold : kThresholds) {
-    if (threshold > most) continue;
-    Candidate at_threshold = like;
-    at_threshold.threshold = threshold;
-    CollectFrom(MaskAbove(smooth, threshold), at_threshold, hidden, hints, &rung);
-    CountAgreeing(&rung.candidates);
-    if (Settled(rung.candidates)) break;
+  for (int first = 0; first < all && !Settled(rung.candidates);) {
+    const int count = std::min(all - first, first == 0 ? kEnough : UsableThreads());
+    std::vector<Rung> seen = SeeAll(count, [&](int i) {
+      Candidate at_threshold = like;
+      at_threshold.threshold = thresholds[static_cast<std::size_t>(first + i)];
+      return SeenIn(MaskAbove(smooth, at_threshold.threshold), at_threshold, hidden, hints);
+    });
+    for (Rung& mask : seen) {
+      if (Settled(rung.candidates)) break;
+      Add(std::move(mask), &rung);
+    }
+    first += count;
   }
   return rung;
 }
@@ -100,15 +126,13 @@ Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
   Rung rung;
   for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
     rung.distance = FloodLevels(sharp_gradient, distance, colour.ignore, closed_px);
-    for (const double level : kLevels) {
-      CollectFrom(DryMask(rung.distance, level, closed_px),
-                  {{}, colour.lab, {}, "flood", level},
-                  colour.ignore,
-                  view.hints,
-                  &rung);
-    }
+    std::vector<Rung> seen = SeeAll(static_cast<int>(std::size(kLevels)), [&](int i) {
+      const Candidate like{{}, colour.lab, {}, "flood", kLevels[i]};
+      const cv::Mat dry = DryMask(rung.distance, like.threshold, closed_px);
+      return SeenIn(dry, like, colour.ignore, view.hints);
+    });
+    for (Rung& mask : seen) Add(std::move(mask), &rung);
   }
-  CountAgreeing(&rung.candidates);
   return rung;
 }
 
