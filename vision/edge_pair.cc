@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
 #include "vision/edge_colour.h"
 #include "vision/edge_shadow.h"
+#include "vision/parallel.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -83,7 +85,8 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   return path;
 }
 
-// Looks for the edges of one photograph; decodes its colours only if grey leaves a doubt.
+// Looks for the edges of one photograph, both at a time if need be; decodes its colours only if
+// grey leaves a doubt.
 class BladeLocator {
  public:
   BladeLocator(const Photo& photo, const ScaleResult& scale, const Scene& scene)
@@ -151,8 +154,9 @@ class BladeLocator {
   }
 
   [[nodiscard]] const cv::Mat& Colours() {
-    if (colours_.empty())
+    std::call_once(decoded_, [this] {
       colours_ = photo_.DecodeColour(std::max(photo_.grey().cols, photo_.grey().rows));
+    });
     return colours_;
   }
 
@@ -160,6 +164,7 @@ class BladeLocator {
   const ToneCurve& tone_;
   const Scene& scene_;
   EdgeOptions options_;
+  std::once_flag decoded_;
   cv::Mat colours_;
 };
 
@@ -170,7 +175,14 @@ BladeEdges LocateBlades(const Photo& photo,
                         const Scene& scene,
                         bool upper_on_left) {
   BladeLocator locator(photo, scale, scene);
-  BladeEdges edges{locator.Locate(upper_on_left), locator.LocateOrTrace(!upper_on_left)};
+  BladeEdges edges;
+  ParallelFor(2, [&](int blade) {
+    if (blade == 0) {
+      edges.upper = locator.Locate(upper_on_left);
+    } else {
+      edges.lower = locator.LocateOrTrace(!upper_on_left);
+    }
+  });
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
   return edges;

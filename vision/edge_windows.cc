@@ -48,19 +48,23 @@ void EdgeWindows::Distrust(const std::vector<double>& chi_square) {
   }
 }
 
-void EdgeWindows::Solve(const LevelVector& precision) {
-  fits_.clear();
+void EdgeWindows::SumStretches() {
   const int last = static_cast<int>(moments_.size()) - 1;
   for (int center = 0; center <= last; center += kStretchesPerStep) {
     // Towards the ends the other blade and the tip change the light quickly: the windows shrink
     // with the distance.
     const int reach = std::clamp(std::min(center, last - center), kReachAtEnds, kReach);
-    LevelMoments sum;
+    LevelMoments& sum = sums_.emplace_back();
     for (int s = std::max(center - reach, 0); s <= std::min(center + reach, last); ++s) {
       sum.Add(moments_[Index(s)], trust_[Index(s)]);
     }
-    fits_.push_back(SolveLevels(sum, precision));
   }
+}
+
+void EdgeWindows::Solve(const LevelVector& precision) {
+  if (sums_.empty()) SumStretches();
+  fits_.clear();
+  for (const LevelMoments& sum : sums_) fits_.push_back(SolveLevels(sum, precision));
 }
 
 LevelVector EdgeWindows::SupportedSlopes() const { return SlopePrecision(fits_, kOverlap); }

@@ -21,7 +21,8 @@ class EdgeWindows {
   // chi_square: per pixel, of the stretches of an earlier round, evenly spaced.
   void Distrust(const std::vector<double>& chi_square);
 
-  // Levels of every window, the terms held to zero by their precision (edge_levels.h).
+  // Levels of every window, the terms held to zero by their precision (edge_levels.h). Pixels that
+  // are added after the first Solve have no say.
   void Solve(const LevelVector& precision);
 
   // The precision that keeps slopes only where the windows together support them; after a Solve
@@ -40,8 +41,11 @@ class EdgeWindows {
   // Window coordinate of a sample: window w is centred on the middle of stretch 2 w.
   [[nodiscard]] double Position(int sample) const;
 
+  void SumStretches();
+
   int samples_, stretch_;
   std::vector<LevelMoments> moments_;  // of stretches
+  std::vector<LevelMoments> sums_;     // of windows, once they are asked for
   std::vector<double> trust_;
   std::vector<LevelFit> fits_;
 };

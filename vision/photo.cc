@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "vision/parallel.h"
 #include "vision/photo_codec.h"
 #include "vision/photo_exif.h"
 #include "vision/refused.h"
@@ -110,7 +111,6 @@ PhotoMetadata Describe(std::string_view bytes, const DecodedPhoto& decoded) {
       format == Format::kHeic ? 1 : exif.orientation.value_or(decoded.facts.orientation);
   metadata.dpi = ScannerDpi(decoded.facts, exif);
   metadata.focal_length_px = FocalLengthPx(exif, decoded.stored_width, decoded.stored_height);
-  metadata.sha256 = Sha256Hex(bytes);
   return metadata;
 }
 
@@ -126,9 +126,18 @@ Photo Photo::Load(const std::filesystem::path& path) {
   try {
     Photo photo;
     photo.bytes_ = ReadWholeFile(path);
-    const DecodedPhoto decoded = Decode(photo.bytes_, {});
+    DecodedPhoto decoded;
+    std::string sha256;
+    ParallelFor(2, [&](int part) {
+      if (part == 0) {
+        decoded = Decode(photo.bytes_, {});
+      } else {
+        sha256 = Sha256Hex(photo.bytes_);
+      }
+    });
     photo.grey_ = decoded.pixels;
     photo.metadata_ = Describe(photo.bytes_, decoded);
+    photo.metadata_.sha256 = sha256;
     return photo;
   } catch (const std::bad_alloc&) {
     Refuse(path, "there is not enough memory for it");
