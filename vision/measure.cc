@@ -11,6 +11,7 @@
 #include "vision/edge_pair.h"
 #include "vision/located_blade.h"
 #include "vision/opening.h"
+#include "vision/parallel.h"
 #include "vision/pivot.h"
 #include "vision/pivot_debug.h"
 #include "vision/refused.h"
@@ -172,16 +173,41 @@ Blades LocateAndTrim(const Photo& photo,
   return blades;
 }
 
+// What the edges and the look at the joint give, which need nothing of each other.
+struct Parts {
+  Blades blades;
+  std::optional<Screw> at_joint;
+};
+
+Parts LocateParts(const Photo& photo,
+                  const ScaleResult& scale,
+                  const Scene& scene,
+                  const StoredHints& hints,
+                  bool upper_on_left,
+                  StageLog* log) {
+  Parts parts;
+  ParallelFor(2, [&](int part) {
+    if (part == 0) {
+      parts.blades = LocateAndTrim(photo, scale, scene, upper_on_left, log);
+    } else if (!hints.pivot_px) {
+      parts.at_joint = LookAtJoint(photo.grey(), scale.tone, scene);
+    }
+  });
+  return parts;
+}
+
 Pivot LocatePivot(const Photo& photo,
                   const ScaleResult& scale,
                   const Scene& scene,
-                  const Blades& blades,
+                  const Parts& parts,
                   const StoredHints& hints,
                   StageLog* log) {
+  const Blades& blades = parts.blades;
   const bool upper_on_left = blades.upper.on_left;
   const LocatedBlade& left = upper_on_left ? blades.upper : blades.lower;
   const LocatedBlade& right = upper_on_left ? blades.lower : blades.upper;
-  const PivotSearch search{scene, {PointsOf(left), PointsOf(right)}, hints.pivot_px};
+  const PivotSearch search{
+      scene, {PointsOf(left), PointsOf(right)}, hints.pivot_px, parts.at_joint};
   Pivot pivot = FindPivot(photo.grey(), scale, search);
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
   RefuseOutOfPlane(pivot);
@@ -235,8 +261,9 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const StoredHints hints = InStored(photo, options.hints);
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  const Blades blades = LocateAndTrim(photo, scale, scene, upper_on_left, &log);
-  const Pivot pivot = LocatePivot(photo, scale, scene, blades, hints, &log);
+  const Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
+  const Blades& blades = parts.blades;
+  const Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
   const BladeFrame frame(map, pivot.point_px, opening.x_in_plane, upper_on_left);

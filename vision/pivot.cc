@@ -69,28 +69,36 @@ double Credence(const Screw& screw) {
   return screw.evidence - 0.5 * sigmas * sigmas;
 }
 
-// A near look first: fewer other arcs compete. Where that leaves doubts, all along the overlap,
-// where joints put their screws: a fifth to three fifths of the way from the shanks' crotch to the
-// blades'; the clearest counts.
-std::optional<Screw> LookForScrew(const cv::Mat& grey,
-                                  const ToneCurve& tone,
-                                  const Scene& scene,
-                                  const Vector2d& guess_px) {
+// Heads of screws and rivets are a quarter to nine tenths of the shank wide; engraved marks are
+// smaller.
+ScrewSearch SearchForHead(const Scene& scene, const Vector2d& guess_px, double radius_px) {
   ScrewSearch search;
-  // Heads of screws and rivets are a quarter to nine tenths of the shank wide; engraved marks are
-  // smaller.
   search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
   search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
   search.guess_px = guess_px;
-  search.radius_px = 0.35 * scene.shank_width_px;
-  constexpr double kBeyondDoubt = 20;  // evidence; shadows and facets of the joint reach 12
-  std::optional<Screw> clearest = FindScrew(grey, tone, search);
-  if (clearest && clearest->evidence > kBeyondDoubt) return clearest;
+  search.radius_px = radius_px;
+  return search;
+}
+
+// About a place on the overlap, as a share of the way from the shanks' crotch to the blades'.
+ScrewSearch SearchOverlap(const Scene& scene, double share) {
   const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
-  for (const double share : {0.25, 0.4, 0.55}) {
-    search.guess_px = scene.shank_crotch_px + share * overlap;
-    search.radius_px =
-        std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
+  const double radius_px =
+      std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
+  return SearchForHead(scene, scene.shank_crotch_px + share * overlap, radius_px);
+}
+
+// What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
+// nearer, so that fewer other arcs compete, and further back. The clearest counts.
+std::optional<Screw> LookForScrew(const cv::Mat& grey,
+                                  const ToneCurve& tone,
+                                  const PivotSearch& known,
+                                  const Vector2d& guess_px) {
+  const Scene& scene = known.scene;
+  std::optional<Screw> clearest = known.at_joint;
+  for (const ScrewSearch& search :
+       {SearchForHead(scene, guess_px, 0.35 * scene.shank_width_px), SearchOverlap(scene, 0.25)}) {
+    if (clearest && clearest->evidence > kBeyondDoubt) break;
     const std::optional<Screw> screw = FindScrew(grey, tone, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
@@ -111,6 +119,10 @@ Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMi
 
 }  // namespace
 
+std::optional<Screw> LookAtJoint(const cv::Mat& grey, const ToneCurve& tone, const Scene& scene) {
+  return FindScrew(grey, tone, SearchOverlap(scene, 0.5));
+}
+
 Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
   const EdgeMirror mirror = MirrorOf(search.edges);
   Pivot pivot = FromGeometry(search.scene, mirror);
@@ -119,7 +131,7 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.covariance_px2.setIdentity();
     pivot.source = "hint";
   } else {
-    pivot.screw = LookForScrew(grey, scale.tone, search.scene, pivot.point_px);
+    pivot.screw = LookForScrew(grey, scale.tone, search, pivot.point_px);
   }
   if (pivot.screw) {
     const PlacePx foot = BelowHead(pivot.screw->center_px, scale, search.scene);

@@ -31,7 +31,14 @@ struct PivotSearch {
   const Scene& scene;
   EdgePair edges;
   std::optional<Eigen::Vector2d> hint_px;
+  std::optional<Screw> at_joint = std::nullopt;  // what LookAtJoint found
 };
+
+// The head where joints mostly have theirs: from a third to two thirds of the way from the shanks'
+// crotch to the blades'. Needs no edges.
+[[nodiscard]] std::optional<Screw> LookAtJoint(const cv::Mat& grey,
+                                               const ToneCurve& tone,
+                                               const Scene& scene);
 
 // In the plane of the edges: below the screw's head if that is seen; else on the line about which
 // the two edges mirror each other, where the members' overlap and the edges' usual overlap put it.

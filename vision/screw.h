@@ -20,6 +20,10 @@ struct Screw {
   double evidence = 0;   // ln of the odds against chance, at least ScrewSearch::least_evidence
 };
 
+// Evidence of a head that need not be looked for any further; shadows and facets of joints
+// reach 12.
+inline constexpr double kBeyondDoubt = 15;
+
 struct ScrewSearch {
   Eigen::Vector2d guess_px;     // where geometry puts the pivot
   double radius_px = 0;         // how far from there the centre may lie; time grows as its square

@@ -43,8 +43,9 @@ Rows WithoutTrend(const RimProfiles& profiles) {
       w.cwiseProduct(profiles.t);  // the window is even: constant and slope are orthogonal
   const Eigen::VectorXd mean = profiles.values * w / w.sum();
   const Eigen::VectorXd slope = profiles.values * wt / wt.dot(profiles.t);
-  return profiles.values - mean * Eigen::RowVectorXd::Ones(w.size()) -
-         slope * profiles.t.transpose();
+  Rows detrended = profiles.values.colwise() - mean;
+  detrended.noalias() -= slope * profiles.t.transpose();
+  return detrended;
 }
 
 struct CommonShape {
@@ -56,14 +57,15 @@ struct CommonShape {
 // than others.
 std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Rows& detrended) {
   const Eigen::VectorXd root_window = profiles.window.cwiseSqrt();
-  const Eigen::VectorXd norms = (detrended * root_window.asDiagonal()).rowwise().norm();
+  Rows scaled = detrended * root_window.asDiagonal();
+  const Eigen::VectorXd norms = scaled.rowwise().norm();
   const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
-  const Rows scaled = (norms.array() + typical).inverse().matrix().asDiagonal() * detrended *
-                      root_window.asDiagonal();
-  const Eigen::MatrixXd covariance = scaled.transpose() * scaled;
+  scaled.array().colwise() /= norms.array() + typical;
   Eigen::VectorXd component = scaled.colwise().mean().transpose();
+  Eigen::VectorXd shares(scaled.rows());
   for (int round = 0; round < 4 && component.norm() > 1e-12; ++round) {
-    component = covariance * component.normalized();
+    shares.noalias() = scaled * component.normalized();
+    component.noalias() = scaled.transpose() * shares;
   }
   if (!(component.norm() > 1e-12)) return std::nullopt;
   CommonShape shape;
@@ -82,43 +84,55 @@ std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Ro
   return shape;
 }
 
+// The profiles averaged along the rim by a Gaussian, times the sum of its weights.
+struct SmoothedProfiles {
+  Rows values;
+  double weights = 1;
+};
+
+SmoothedProfiles SmoothAlongRim(const Rows& profiles) {
+  const Eigen::Index count = profiles.rows();
+  const double sigma = std::max(0.7, kSmoothingTurns * static_cast<double>(count));
+  const auto reach = static_cast<Eigen::Index>(std::ceil(2.5 * sigma));
+  SmoothedProfiles smooth{profiles};
+  for (Eigen::Index k = 1; k <= reach; ++k) {
+    const double weight = std::exp(-0.5 * static_cast<double>(k * k) / (sigma * sigma));
+    // Both neighbours k away; the rim is closed.
+    smooth.values.topRows(count - k) += weight * profiles.bottomRows(count - k);
+    smooth.values.bottomRows(k) += weight * profiles.topRows(k);
+    smooth.values.bottomRows(count - k) += weight * profiles.topRows(count - k);
+    smooth.values.topRows(k) += weight * profiles.bottomRows(k);
+    smooth.weights += 2 * weight;
+  }
+  return smooth;
+}
+
 // Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
 std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
                                    const Rows& detrended,
                                    const CommonShape& shape) {
-  const auto count = static_cast<int>(detrended.rows());
   const Eigen::Index taps = detrended.cols();
-  Eigen::MatrixXd basis(taps, 4);
+  Eigen::Matrix<double, Eigen::Dynamic, 4> basis(taps, 4);
   basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
-  const Eigen::MatrixXd weighted = profiles.window.asDiagonal() * basis;
+  const Eigen::Matrix<double, Eigen::Dynamic, 4> weighted = profiles.window.asDiagonal() * basis;
   const Eigen::Matrix4d normal = basis.transpose() * weighted;
-  const Rows solution = detrended * weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity());
+  // Of the four unknowns the last two: a and a d.
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> estimator =
+      weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity()).rightCols<2>();
+  const Eigen::Matrix<double, Eigen::Dynamic, 2> solution = detrended * estimator;
 
-  const double sigma = std::max(0.7, kSmoothingTurns * count);
-  const int reach = static_cast<int>(std::ceil(2.5 * sigma));
-  std::vector<double> kernel(static_cast<std::size_t>(reach) + 1);
-  double kernel_sum = -1;
-  for (int k = 0; k <= reach; ++k) {
-    kernel[static_cast<std::size_t>(k)] = std::exp(-0.5 * k * k / (sigma * sigma));
-    kernel_sum += 2 * kernel[static_cast<std::size_t>(k)];
-  }
-  const Eigen::VectorXd windowed_shape = profiles.window.cwiseProduct(shape.value);
+  const SmoothedProfiles smooth = SmoothAlongRim(detrended);
+  const Eigen::VectorXd along = smooth.values * profiles.window.cwiseProduct(shape.value);
+  const Eigen::VectorXd squares = smooth.values.cwiseAbs2() * profiles.window;
   const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
-  std::vector<RimMatch> matches(static_cast<std::size_t>(count));
-  Eigen::RowVectorXd smooth(taps);
-  for (int i = 0; i < count; ++i) {
-    smooth = detrended.row(i);
-    for (int k = 1; k <= reach; ++k) {
-      smooth += kernel[static_cast<std::size_t>(k)] *
-                (detrended.row((i + k) % count) + detrended.row((i + count - k) % count));
-    }
+  std::vector<RimMatch> matches(static_cast<std::size_t>(detrended.rows()));
+  for (Eigen::Index i = 0; i < detrended.rows(); ++i) {
     RimMatch& match = matches[static_cast<std::size_t>(i)];
-    const double norm = std::sqrt(smooth.cwiseAbs2() * profiles.window) + 1e-12 * kernel_sum;
-    match.correlation = smooth.dot(windowed_shape) / norm;
-    match.strength = smooth.dot(windowed_shape) / kernel_sum;
-    match.amplitude = solution(i, 2);
+    match.correlation = along[i] / (std::sqrt(squares[i]) + 1e-12 * smooth.weights);
+    match.strength = along[i] / smooth.weights;
+    match.amplitude = solution(i, 0);
     const double safe = std::copysign(std::max(std::abs(match.amplitude), 1e-12), match.amplitude);
-    match.shift_px = std::clamp(solution(i, 3) / safe, -most_shift, most_shift) + shape.center_px;
+    match.shift_px = std::clamp(solution(i, 1) / safe, -most_shift, most_shift) + shape.center_px;
   }
   return matches;
 }
