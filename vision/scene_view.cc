@@ -86,19 +86,20 @@ cv::Mat SceneView::MarkerMask(const ScaledImage& at) const {
 ScaledImage SmallGrey(const SceneView& view, int longest) {
   // From there on a whole factor: many times faster, and as good.
   constexpr int kWholeFrom = 3;
-  constexpr double kPerGrey = 100.0 / 255;
   const cv::Rect area(view.window.area_px);
   ScaledImage small;
   small.window = view.window;
+  cv::Mat reduced;
   const int factor = static_cast<int>(
       std::lround(static_cast<double>(std::max(area.width, area.height)) / longest));
   if (factor < kWholeFrom) {
-    Resized(view.photo.grey()(area), SmallSize(view.window, longest))
-        .convertTo(small.pixels, CV_32FC1, kPerGrey);
+    reduced = Resized(view.photo.grey()(area), SmallSize(view.window, longest));
   } else {
-    small.pixels = kPerGrey * BlockMeans(view.photo.grey()(area), factor);
-    small.window.area_px = cv::Rect(area.tl(), small.pixels.size() * factor);
+    // Whole grey values, as pictures that are small already have: scatter alike.
+    BlockMeans(view.photo.grey()(area), factor).convertTo(reduced, CV_8U);
+    small.window.area_px = cv::Rect(area.tl(), reduced.size() * factor);
   }
+  reduced.convertTo(small.pixels, CV_32FC1, 100.0 / 255);
   return small;
 }
 
