@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace bladecurve::testing {
 namespace {
@@ -56,6 +57,42 @@ double BoxedCdf(double u, double blur) {
   return once(u + 0.5) - once(u - 0.5);
 }
 
+// What a pixel sees of a blurred half-plane, by the signed distance of its centre from the line:
+// the mean of the blurred step over the pixel's area by quadrature, tabulated for pictures of many
+// pixels.
+class PixelProfile {
+ public:
+  PixelProfile(const Eigen::Vector2d& normal, double blur_px) : reach_px_(7 * blur_px + 0.75) {
+    const int last = static_cast<int>(std::ceil(2 * reach_px_ * kPerPx)) + 2;
+    for (int i = -1; i <= last; ++i) {
+      const double distance = static_cast<double>(i) / kPerPx - reach_px_;
+      nodes_.push_back(Integrate(-0.5, 0.5, 2, [&](double v) {
+        return Integrate(-0.5, 0.5, 2, [&](double u) {
+          return NormalCdf((distance + u * normal.x() + v * normal.y()) / blur_px);
+        });
+      }));
+    }
+  }
+
+  // Cubic through the four nearest nodes (Lagrange).
+  [[nodiscard]] double At(double distance_px) const {
+    if (std::abs(distance_px) >= reach_px_) return distance_px > 0 ? 1 : 0;
+    const double place = (distance_px + reach_px_) * kPerPx;
+    const auto i = static_cast<size_t>(place);
+    const double t = place - static_cast<double>(i);
+    const double before = nodes_[i], at = nodes_[i + 1], next = nodes_[i + 2],
+                 after = nodes_[i + 3];
+    return -t * (t - 1) * (t - 2) / 6 * before + (t + 1) * (t - 1) * (t - 2) / 2 * at -
+           (t + 1) * t * (t - 2) / 2 * next + (t + 1) * t * (t - 1) / 6 * after;
+  }
+
+ private:
+  // The cubic's error is 3/128 of the fourth derivative over 48^4: 2e-8 at a blur of 0.5 px.
+  static constexpr int kPerPx = 48;
+  double reach_px_;
+  std::vector<double> nodes_;  // from one spacing before -reach_px_
+};
+
 }  // namespace
 
 double Gaussian::operator()() {
@@ -68,21 +105,10 @@ cv::Mat HalfPlaneCoverage(cv::Size size,
                           double offset,
                           double blur_px) {
   cv::Mat coverage(size, CV_64F);
-  const double reach = 7 * blur_px + 0.75;
+  const PixelProfile profile(normal, blur_px);
   for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const double d = normal.x() * x + normal.y() * y - offset;
-      double value = d > 0 ? 1 : 0;
-      if (std::abs(d) < reach) {
-        // The line cuts the pixel: mean of the blurred step over the pixel's area.
-        value = Integrate(-0.5, 0.5, 2, [&](double v) {
-          return Integrate(-0.5, 0.5, 2, [&](double u) {
-            return NormalCdf((d + u * normal.x() + v * normal.y()) / blur_px);
-          });
-        });
-      }
-      coverage.at<double>(y, x) = value;
-    }
+    for (int x = 0; x < size.width; ++x)
+      coverage.at<double>(y, x) = profile.At(normal.x() * x + normal.y() * y - offset);
   }
   return coverage;
 }

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "vision/card_scene.h"
+#include "vision/corner_bound.h"
 #include "vision/marker_corners.h"
 #include "vision/png_writer.h"
 #include "vision/scale.h"
@@ -16,16 +17,6 @@
 
 namespace bladecurve {
 namespace {
-
-// Cramer-Rao bound of a corner's coordinate: two straight edges of the marker's full side, each
-// with offset and angle unknown, so that an end scatters twice as much as the middle. Levels count
-// as known: those of a band of ten sigma add a quarter.
-double CornerBound(const SquareImage& image) {
-  const double blur = std::sqrt(image.blur_px * image.blur_px + 1.0 / 12);
-  const double contrast = 255 * (image.bright - image.dark);
-  const double noise2 = image.noise * image.noise + 1.0 / 12;
-  return 2 * std::sqrt(2 * std::sqrt(M_PI) * blur * noise2 / (contrast * contrast * image.side_px));
-}
 
 struct Outcome {
   double rms_px = 0, bias_px = 0, stated_px = 0, ms = 0;
@@ -103,6 +94,7 @@ int main() {
       image.side_px = side;
       image.blur_px = blur;
       image.width = image.height = static_cast<int>(1.5 * side) + 40;
+      image.centre_px = Eigen::Vector2d::Constant(image.width / 2);
       const Outcome outcome = Run(image, 60);
       const double bound = CornerBound(image);
       std::printf("%7.0f %7.1f %5.1f %8.4f %9.4f %6.2f %16.4f %10.4f %6.2f\n",

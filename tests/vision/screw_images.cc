@@ -28,6 +28,8 @@ double DistanceToEllipse(const HeadSpec& spec, const Eigen::Vector2d& p) {
   return (value - 1) / gradient;
 }
 
+constexpr double kGrainAlongPx = 8, kGrainAcrossPx = 0.7;  // Gaussian sigmas
+
 // Grain: white noise drawn out along one direction, standard deviation 1.
 cv::Mat BrushedGrain(int side, double angle_rad, std::uint32_t seed) {
   Draws draws(seed);
@@ -36,7 +38,7 @@ cv::Mat BrushedGrain(int side, double angle_rad, std::uint32_t seed) {
   for (int row = 0; row < wide; ++row) {
     for (int column = 0; column < wide; ++column) grain.at<double>(row, column) = draws.Normal();
   }
-  cv::GaussianBlur(grain, grain, cv::Size(0, 0), 8.0, 0.7);
+  cv::GaussianBlur(grain, grain, cv::Size(0, 0), kGrainAlongPx, kGrainAcrossPx);
   const cv::Point2f middle(static_cast<float>(wide) / 2.F, static_cast<float>(wide) / 2.F);
   cv::Mat turn = cv::getRotationMatrix2D(middle, -angle_rad * 180 / std::numbers::pi, 1.0);
   turn.at<double>(0, 2) -= side / 2.0;
@@ -46,6 +48,26 @@ cv::Mat BrushedGrain(int side, double angle_rad, std::uint32_t seed) {
   cv::Scalar mean, deviation;
   cv::meanStdDev(turned, mean, deviation);
   return (turned - mean[0]) / deviation[0];
+}
+
+// rad/px of a row or column of a spectrum.
+double Frequency(int index, int count) {
+  return 2 * std::numbers::pi * (2 * index > count ? index - count : index) / count;
+}
+
+// Power per pixel of noise, rounding and grain at a frequency, grey values squared. White noise
+// that a Gaussian has drawn out to variance 1 has the density 4 pi s t exp(-(s k)^2 - (t l)^2).
+double NoiseDensity(const HeadSpec& spec, const Eigen::Vector2d& frequency) {
+  constexpr double kStep = 1e-4;
+  const double white = spec.noise * spec.noise + 1.0 / 12;
+  const double grey_per_light =
+      (Encode(spec.plate + kStep) - Encode(spec.plate - kStep)) / (2 * kStep);
+  const double grain = spec.brushed * spec.plate * grey_per_light;
+  const double c = std::cos(spec.brushed_angle_rad), s = std::sin(spec.brushed_angle_rad);
+  const double along = kGrainAlongPx * (c * frequency.x() + s * frequency.y());
+  const double across = kGrainAcrossPx * (-s * frequency.x() + c * frequency.y());
+  return white + grain * grain * 4 * std::numbers::pi * kGrainAlongPx * kGrainAcrossPx *
+                     std::exp(-along * along - across * across);
 }
 
 }  // namespace
@@ -104,11 +126,24 @@ cv::Mat RenderHead(const HeadSpec& spec) {
 double CenterBoundPx(const HeadSpec& spec) {
   constexpr double kStepPx = 0.01;
   HeadSpec before = spec, after = spec;
+  before.brushed = after.brushed = 0;  // the grain stays where it is
   before.center_px.x() -= kStepPx / 2;
   after.center_px.x() += kStepPx / 2;
   const cv::Mat slope = (RenderHeadExactly(after) - RenderHeadExactly(before)) / kStepPx;
-  const double variance = spec.noise * spec.noise + 1.0 / 12;  // rounding
-  return std::sqrt(variance / slope.dot(slope));
+  cv::Mat spectrum;
+  cv::dft(slope, spectrum, cv::DFT_COMPLEX_OUTPUT);
+  // Noise that is alike everywhere is independent from frequency to frequency: there the Fisher
+  // information adds up (Whittle 1953).
+  double information = 0;
+  for (int row = 0; row < spectrum.rows; ++row) {
+    for (int column = 0; column < spectrum.cols; ++column) {
+      const auto& wave = spectrum.at<cv::Vec2d>(row, column);
+      const double density =
+          NoiseDensity(spec, {Frequency(column, spectrum.cols), Frequency(row, spectrum.rows)});
+      information += wave.dot(wave) / density;
+    }
+  }
+  return std::sqrt(static_cast<double>(spectrum.total()) / information);
 }
 
 }  // namespace bladecurve

@@ -33,9 +33,9 @@ struct HeadSpec {
 // CV_8UC1 with noise.
 [[nodiscard]] cv::Mat RenderHead(const HeadSpec& spec);
 
-// Standard deviation of the best unbiased estimate of the centre's x (Cramer-Rao), for known shape:
-// lower than any method can reach that fits the shape as well, and nearly equal to it, as centre
-// and shape are uncorrelated.
+// Standard deviation of the best unbiased estimate of the centre's x (Cramer-Rao), pixel noise,
+// rounding and the grain's correlated noise counted; the head's shape and look are taken as known,
+// which costs nothing: they are even about the centre, it is odd.
 [[nodiscard]] double CenterBoundPx(const HeadSpec& spec);
 
 // Uniform in [0, 1) and standard normal from the same generator on every platform.
