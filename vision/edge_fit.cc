@@ -8,9 +8,11 @@
 
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
+#include "vision/edge_blur.h"
 #include "vision/edge_clipping.h"
 #include "vision/edge_glare.h"
 #include "vision/edge_levels.h"
+#include "vision/edge_reach.h"
 #include "vision/edge_slice.h"
 #include "vision/edge_windows.h"
 #include "vision/robust_statistics.h"
@@ -72,7 +74,11 @@ class Fitter {
     offsets_.assign(path_.points.size(), 0.0);
     inner_px_ = SpreadEvenly(options_.inner_px, path_.size());
     for (double& inner : inner_px_) inner -= face_moved_px_;
-    band_ = GatherPixels(grey_, tone_, path_, {InnerReach(), OuterReach()});
+    band_ =
+        GatherPixels(grey_,
+                     tone_,
+                     path_,
+                     ReachBeside(blur_, inner_px_, SpreadEvenly(options_.outer_px, path_.size())));
     if (options_.blur_known) glare_ = Glare(band_);
   }
 
@@ -152,27 +158,6 @@ class Fitter {
     return prepared_;
   }
 
-  // The levels must be seen beyond the blur, but not the next transition: in the background the
-  // pixels end before it, in the blade behind it, for there it is modelled.
-  [[nodiscard]] double WantedReach() const {
-    constexpr double kReachPerBlur = 5, kLeast = 5, kMost = 14;
-    return std::clamp(kReachPerBlur * std::sqrt(TotalBlurVariance(blur_)), kLeast, kMost);
-  }
-
-  [[nodiscard]] std::vector<double> InnerReach() const {
-    constexpr double kBehind = 2;
-    std::vector<double> reach;
-    for (const double inner : inner_px_) reach.push_back(std::min(inner + kBehind, WantedReach()));
-    return reach;
-  }
-
-  [[nodiscard]] std::vector<double> OuterReach() const {
-    constexpr double kBefore = 1, kLeast = 1.5;
-    std::vector<double> reach = SpreadEvenly(options_.outer_px, path_.size());
-    for (double& outer : reach) outer = std::clamp(outer - kBefore, kLeast, WantedReach());
-    return reach;
-  }
-
   // What the levels leave over on plain blade and plain background, and where it is too much.
   void MeasureNoise() {
     constexpr double kPlain = 0.02;  // share of the other side
@@ -194,38 +179,21 @@ class Fitter {
     misfit_ = std::move(misfit);
   }
 
-  // The inner transition's distance was read off a coarse grid, where the two push each other
-  // apart.
   void MoveFace() {
-    constexpr double kMost = 0.5;              // px a round
-    constexpr double kPriorInformation = 100;  // 1/px^2
-    std::vector<std::pair<double, double>> steps{{0.0, kPriorInformation}};
-    for (const LevelFit& window : windows_.fits()) {
-      const double height = window.levels[kFace];
-      steps.emplace_back(window.levels[kFaceShift] / (height == 0 ? 1.0 : height),
-                         height * height / window.variances[kFaceShift] /
-                             std::max(window.chi_square_per_pixel, 1.0));
-    }
-    const double outwards = std::clamp(WeightedMedian(std::move(steps)), -kMost, kMost);
+    const double outwards = FaceShift(windows_.fits());
     face_moved_px_ += outwards;
     for (double& inner : inner_px_) inner -= outwards;
   }
 
   void UpdateBlur() {
     if (options_.blur_known) return;
-    // A much wider step is another thing than the blade's border.
-    constexpr double kLeastShare = 0.5, kMostShare = 1.5, kMargin = 0.25;  // px
-    constexpr double kPriorInformation =
-        30;  // 1/px^2; windows that know less together do not change the blur
-    std::vector<std::pair<double, double>> steps{{options_.blur_px - blur_, kPriorInformation}};
-    for (const LevelFit& window : windows_.fits()) {
-      steps.emplace_back(window.spread_px,
-                         window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
-    }
-    const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_, 0.6 * blur_);
-    const double most = std::min(kMostShare * options_.blur_px + kMargin, most_blur_);
-    blur_ = std::min(std::max(blur_ + step, kLeastShare * options_.blur_px), most);
+    blur_ = ImprovedBlur(blur_,
+                         windows_.fits(),
+                         {options_.blur_px, most_blur_},
+                         NoisePerContrast(windows_.fits(), Noise()));
   }
+
+  [[nodiscard]] double Noise() const { return std::max(noise_.blade, noise_.ground); }
 
   void Advance() {
     const std::vector<double> step = Step();

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 
@@ -115,6 +118,19 @@ LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap) {
     precision[term] = supported ? count / scatter : kFixed;
   }
   return precision;
+}
+
+double FaceShift(const std::vector<LevelFit>& windows) {
+  constexpr double kMost = 0.5;              // px a round
+  constexpr double kPriorInformation = 100;  // 1/px^2
+  std::vector<std::pair<double, double>> steps{{0.0, kPriorInformation}};
+  for (const LevelFit& window : windows) {
+    const double height = window.levels[kFace];
+    steps.emplace_back(window.levels[kFaceShift] / (height == 0 ? 1.0 : height),
+                       height * height / window.variances[kFaceShift] /
+                           std::max(window.chi_square_per_pixel, 1.0));
+  }
+  return std::clamp(WeightedMedian(std::move(steps)), -kMost, kMost);
 }
 
 }  // namespace bladecurve

@@ -71,4 +71,8 @@ inline constexpr double kFixed = 1e12;
 // no larger than their own uncertainty. Each pixel lies in `overlap` windows.
 [[nodiscard]] LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap);
 
+// How far out of the blade, px, the windows see its inner transition from where it was taken: that
+// was read off a coarse grid, where the two push each other apart.
+[[nodiscard]] double FaceShift(const std::vector<LevelFit>& windows);
+
 }  // namespace bladecurve
