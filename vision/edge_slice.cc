@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "vision/edge_path.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -15,6 +17,9 @@ namespace {
 // Unknowns of a slice: offset, own level of the blade, own level of the background.
 using Matrix3 = Eigen::Matrix3d;
 using Vector3 = Eigen::Vector3d;
+
+constexpr double kRoughness = 0.5;  // px; a slice that says nothing takes after its neighbours
+constexpr double kHeld = 1 / (kRoughness * kRoughness);
 
 double PrecisionOf(double texture, double strayed) {
   constexpr double kNone = 1e-5;  // linear light; smaller ones are no texture
@@ -66,10 +71,9 @@ EdgeSlice SolveSlice(std::span<const PreparedPixel> pixels,
                      const LevelVector& levels,
                      const SliceTexture& texture,
                      double kept) {
-  constexpr int kRounds = 2;          // the gradient depends on the levels
-  constexpr double kRoughness = 0.5;  // px; a slice that says nothing takes after its neighbours
+  constexpr int kRounds = 2;  // the gradient depends on the levels
   const SliceRests rests = RestsOf(pixels, levels);
-  const Vector3 prior(1 / (kRoughness * kRoughness),
+  const Vector3 prior(kHeld,
                       PrecisionOf(texture.blade, Strayed(rests.blade, texture.blade)),
                       PrecisionOf(texture.ground, Strayed(rests.ground, texture.ground)));
   const double contrast = levels[kGround] - levels[kBlade];
@@ -95,10 +99,28 @@ EdgeSlice SolveSlice(std::span<const PreparedPixel> pixels,
   slice.contrast = contrast + found[2] - found[1];
   slice.ground = levels[kGround] + found[2];
   slice.slope = std::hypot(levels[kBladeSlope], levels[kGroundSlope]);
+  slice.held = kHeld / (kHeld + std::max(information, 0.0));
   slice.sigma_px = information > 0 && std::isfinite(information)
                        ? 1 / std::sqrt(information * kept)
                        : std::numeric_limits<double>::infinity();
   return slice;
+}
+
+void HoldToNeighbours(double spacing_px, std::vector<EdgeSlice>* slices) {
+  constexpr double kLength = 50;    // px; as far as a window reaches
+  constexpr double kOnPath = 0.01;  // 1/px^2 a slice: where nothing is seen the path stands
+  std::vector<double> offsets, weights;
+  for (const EdgeSlice& slice : *slices) {
+    // Unheld, offset_px / (1 - held), of weight kHeld (1 - held) / held.
+    const double information = kHeld * (1 - slice.held) / slice.held;
+    weights.push_back(information + kOnPath);
+    offsets.push_back((information + kHeld) * slice.offset_px / weights.back());
+  }
+  const double stiffness =
+      Median(weights) * std::pow(kLength / spacing_px / (2 * std::numbers::pi), 4);
+  const std::vector<double> trend = SmoothValues(offsets, weights, stiffness);
+  for (size_t k = 0; k < slices->size(); ++k)
+    (*slices)[k].offset_px += (*slices)[k].held * trend[k];
 }
 
 std::vector<EdgeSlice> SolveSlices(const std::vector<std::vector<PreparedPixel>>& slices,
@@ -120,6 +142,7 @@ std::vector<EdgeSlice> SolveSlices(const std::vector<std::vector<PreparedPixel>>
     solved.push_back(SolveSlice(slices[k], windows.LevelsAt(sample), texture, kept));
     solved.back().sample = sample;
   }
+  HoldToNeighbours(sampling.stride, &solved);
   return solved;
 }
 

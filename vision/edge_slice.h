@@ -25,6 +25,7 @@ struct EdgeSlice {
   double contrast = 0;   // background minus blade
   double ground = 0;     // background at the edge
   double slope = 0;      // of the light beside the edge, both sides together, per px
+  double held = 0;       // weight of the expectation that offset_px is zero, 0 to 1
 };
 
 // How far blade and background of one slice stray from the levels of their window, standard
@@ -61,6 +62,11 @@ struct SliceSampling {
   int stride = 1;
   double noise_blade = 0, noise_ground = 0;
 };
+
+// Moves slices that say little to what those within some 50 px say together, not to the path: a
+// slice of weight w keeps its share, so that sums over many slices are as if none had been held.
+// spacing_px: of the slices.
+void HoldToNeighbours(double spacing_px, std::vector<EdgeSlice>* slices);
 
 // All slices of an edge, the texture measured from what they leave over.
 [[nodiscard]] std::vector<EdgeSlice> SolveSlices(

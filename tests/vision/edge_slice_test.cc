@@ -91,5 +91,37 @@ TEST(TextureSigma, IsWhatNoiseDoesNotExplain) {
   EXPECT_EQ(TextureSigma({}, kNoise), 0);
 }
 
+// Slices of noise, held to zero as far as SolveSlice holds what says so little.
+std::vector<EdgeSlice> QuietSlices(double offset, double held) {
+  constexpr int kSlices = 200;
+  Gaussian random(5);
+  std::vector<EdgeSlice> slices(kSlices);
+  for (EdgeSlice& slice : slices) {
+    slice.held = held;
+    slice.offset_px = (1 - held) * (offset + 0.5 * random());
+  }
+  return slices;
+}
+
+TEST(HoldToNeighbours, TheMeanIsAsIfNoSliceHadBeenHeld) {
+  constexpr double kOffset = 0.4;
+  for (const double held : {0.05, 0.5, 0.9}) {
+    std::vector<EdgeSlice> slices = QuietSlices(kOffset, held);
+    double free = 0, found = 0;
+    for (const EdgeSlice& slice : slices) free += slice.offset_px / (1 - held);
+    HoldToNeighbours(1, &slices);
+    for (const EdgeSlice& slice : slices) found += slice.offset_px;
+    // The little weight of the path, 0.01 against 0.44 at least, is all that pulls.
+    EXPECT_NEAR(found / free, 1, 0.03) << "held " << held;
+  }
+}
+
+TEST(HoldToNeighbours, WhereNothingIsSeenThePathStands) {
+  std::vector<EdgeSlice> slices(50);
+  for (EdgeSlice& slice : slices) slice.held = 1;
+  HoldToNeighbours(1, &slices);
+  for (const EdgeSlice& slice : slices) EXPECT_EQ(slice.offset_px, 0);
+}
+
 }  // namespace
 }  // namespace bladecurve
