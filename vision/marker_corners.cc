@@ -6,12 +6,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/blurred_step.h"
+
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
 using Corners = std::array<Vector2d, 4>;
 
+constexpr double kSmallPx = 120;       // longer sides lose too little at their ends to look again
 constexpr double kCellsPerMarker = 6;  // 4 of pattern and a black border of one on each side
 
 // How far the lens pushes the middle of a side off its chord, along (-dy, dx).
@@ -82,31 +85,21 @@ bool AnyLocated(const std::vector<SeenMarker>& markers) {
   });
 }
 
-}  // namespace
-
-StraightEdgeGuess MarkerSide(const Corners& corners_px,
-                             int side,
-                             const MarkerCornerOptions& options) {
-  const Vector2d& from = corners_px[static_cast<size_t>(side)];
-  const Vector2d& to = corners_px[static_cast<size_t>((side + 1) % 4)];
-  const double length = (to - from).norm();
-  const double cell = ShortestSide(corners_px) / kCellsPerMarker;
-  // Blur reaches some 4 px round a corner; of small markers at least 70 % of the side stays.
-  const double trim = std::min(0.15 * length, 4 + options.search_px);
-  const Vector2d direction = (to - from) / length;
-  StraightEdgeGuess guess;
-  guess.from_px = from + trim * direction;
-  guess.to_px = to - trim * direction;
-  guess.search_px = std::min(options.search_px, 0.5 * cell);
-  guess.free_px = 0.75 * cell;
-  guess.bow_px = Bow(options.camera, guess.from_px, guess.to_px);
-  return guess;
+// The corners and the blur being known, more of a side can be used: the end of a line scatters with
+// the power -3/2 of its length.
+MarkerCornerOptions NearlyWholeSides(const SeenMarker& marker, MarkerCornerOptions options) {
+  constexpr double kSurePx = 0.3;      // corners located once are that good
+  constexpr double kClearBlurs = 2.5;  // beyond, the next side's step lacks less than 1 %
+  options.search_px = kSurePx;
+  options.blur_reach_px = kClearBlurs * std::sqrt(TotalBlurVariance(marker.blur_px));
+  return options;
 }
 
-SeenMarker LocateMarkerCorners(const cv::Mat& grey,
-                               const ToneCurve& tone,
-                               const RoughMarker& rough,
-                               const MarkerCornerOptions& options) {
+// Corners as LocateMarkerCorners has them, by the pieces of the sides that the options leave.
+SeenMarker CrossSides(const cv::Mat& grey,
+                      const ToneCurve& tone,
+                      const RoughMarker& rough,
+                      const MarkerCornerOptions& options) {
   SeenMarker marker = Unlocated(rough);
   Sides sides;
   for (int k = 0; k < 4; ++k) {
@@ -129,6 +122,39 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
   marker.corner_sigma_px = std::sqrt(variance);
   marker.blur_px = blur;
   return marker;
+}
+
+}  // namespace
+
+StraightEdgeGuess MarkerSide(const Corners& corners_px,
+                             int side,
+                             const MarkerCornerOptions& options) {
+  const Vector2d& from = corners_px[static_cast<size_t>(side)];
+  const Vector2d& to = corners_px[static_cast<size_t>((side + 1) % 4)];
+  const double length = (to - from).norm();
+  const double cell = ShortestSide(corners_px) / kCellsPerMarker;
+  // Of small markers at least 70 % of the side stays.
+  const double trim = std::min(0.15 * length, options.blur_reach_px + options.search_px);
+  const Vector2d direction = (to - from) / length;
+  StraightEdgeGuess guess;
+  guess.from_px = from + trim * direction;
+  guess.to_px = to - trim * direction;
+  guess.search_px = std::min(options.search_px, 0.5 * cell);
+  guess.free_px = 0.75 * cell;
+  guess.bow_px = Bow(options.camera, guess.from_px, guess.to_px);
+  return guess;
+}
+
+SeenMarker LocateMarkerCorners(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const RoughMarker& rough,
+                               const MarkerCornerOptions& options) {
+  const SeenMarker marker = CrossSides(grey, tone, rough, options);
+  if (!std::isfinite(marker.corner_sigma_px) || ShortestSide(marker.corners_px) > kSmallPx)
+    return marker;
+  const SeenMarker again =
+      CrossSides(grey, tone, {marker.id, marker.corners_px}, NearlyWholeSides(marker, options));
+  return std::isfinite(again.corner_sigma_px) ? again : marker;
 }
 
 std::vector<SeenMarker> FindMarkers(const cv::Mat& grey,

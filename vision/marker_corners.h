@@ -16,6 +16,7 @@ namespace bladecurve {
 struct MarkerCornerOptions {
   double search_px = 2;          // how far off the rough corners may be
   std::optional<Camera> camera;  // its lens bends the sides; absent: straight
+  double blur_reach_px = 4;      // how far from a corner its blur spoils the sides
 };
 
 // The piece of a marker's side k (from corner k to the next) that neither corner blurs.

@@ -146,5 +146,29 @@ TEST(SrgbToneCurve, ServesPicturesOfGamma22) {
   EXPECT_GT(std::abs(OffsetOf(*stored, image)), 0.3);
 }
 
+TEST(LocateMarkerCorners, SmallMarkersAreGoodToAHundredthOfAPixel) {
+  constexpr int kDraws = 60;
+  constexpr double kDemandedPx = 0.01;
+  std::mt19937 random(19);
+  SquareImage image;
+  image.side_px = 60;
+  image.blur_px = 1;
+  double squares = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    image.angle_rad = Uniform(&random, -0.7, 0.7);
+    image.centre_px = {130 + Uniform(&random, -1, 1), 130 + Uniform(&random, -1, 1)};
+    const cv::Mat grey = Draw(image, &random);
+    RoughMarker rough{0, Corners(image)};
+    for (Eigen::Vector2d& corner : rough.corners_px)
+      corner += Eigen::Vector2d(Uniform(&random, -1, 1), Uniform(&random, -1, 1));
+    const SeenMarker marker =
+        LocateMarkerCorners(grey, LinearToneCurve(), rough, {2, std::nullopt});
+    ASSERT_TRUE(std::isfinite(marker.corner_sigma_px)) << "draw " << i;
+    for (size_t k = 0; k < 4; ++k)
+      squares += (marker.corners_px[k] - Corners(image)[k]).squaredNorm() / (8 * kDraws);
+  }
+  EXPECT_LT(std::sqrt(squares), kDemandedPx);
+}
+
 }  // namespace
 }  // namespace bladecurve
