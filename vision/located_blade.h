@@ -20,6 +20,11 @@ struct LocatedBlade {
   std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
 };
 
+// Both blades of a pair, trimmed.
+struct Blades {
+  LocatedBlade upper, lower;
+};
+
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
 // near, and that end. Throws Refused{kEdgeTooShort}.
 void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "vision/blade_frame.h"
+#include "vision/consistency.h"
 #include "vision/edge_debug.h"
 #include "vision/edge_pair.h"
 #include "vision/located_blade.h"
@@ -14,7 +15,6 @@
 #include "vision/parallel.h"
 #include "vision/pivot.h"
 #include "vision/pivot_debug.h"
-#include "vision/refused.h"
 #include "vision/scene.h"
 
 namespace bladecurve {
@@ -59,11 +59,6 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
-// Both blades, trimmed.
-struct Blades {
-  LocatedBlade upper, lower;
-};
-
 PlaneMap MapFor(const ScaleResult& scale,
                 const ScaleOptions& options,
                 const Pivot& pivot,
@@ -74,42 +69,6 @@ PlaneMap MapFor(const ScaleResult& scale,
   const double sigma_px =
       std::sqrt(pivot.covariance_px2.trace() / 2 + std::pow(upper.end.along_sigma_px, 2));
   return PlaneMap::Uniform(*options.length_mm / length_px, sigma_px / length_px, "length");
-}
-
-void RefuseOutOfPlane(const Pivot& pivot) {
-  // Straight and curved scissors seen at a slant reach 0.1, bandage scissors 0.25 and more.
-  constexpr double kLargestAsymmetry = 0.2;
-  if (pivot.asymmetry <= kLargestAsymmetry) return;
-  throw Refused(
-      Reason::kOutOfPlane,
-      "pivot: the two cutting edges pass by the pivot at very different distances (" +
-          std::to_string(pivot.asymmetry).substr(0, 4) +
-          " of the blade's length); angled or bent blades cannot be measured from one view");
-}
-
-// Blades that open little do not say how far behind them they turn.
-void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
-  constexpr double kVaguest = 0.14;  // of the blades' length; theta is then good to a seventh
-  if (pivot.source != "geometry") return;
-  const double length_px = 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
-                                  (blades.lower.end.point_px - pivot.point_px).norm());
-  const double sigma_px = std::sqrt(pivot.covariance_px2.trace());
-  if (sigma_px <= kVaguest * length_px) return;
-  throw Refused(Reason::kAmbiguousPivot,
-                "pivot: no screw is seen, and the silhouette places it to " +
-                    std::to_string(std::lround(100 * sigma_px / length_px)) +
-                    " % of the blades' length only; say where it is: --pivot X,Y; or open the "
-                    "scissors wider");
-}
-
-void RefuseJaws(const Pivot& pivot) {
-  constexpr double kLeastOverlap = 0.04;  // 0.055 and more for all scissors, 0.03 and less for jaws
-  if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
-  throw Refused(
-      Reason::kNotScissors,
-      "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
-      "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are scissors, "
-      "say where the screw is: --pivot X,Y");
 }
 
 std::vector<EdgePoint> ToFrame(const BladeFrame& frame,
@@ -150,7 +109,7 @@ void CollectWarnings(const Scene& scene,
   *warnings = scene.warnings;
   warnings->insert(warnings->end(), map.warnings().begin(), map.warnings().end());
   if (pivot.source == "geometry") warnings->push_back("pivot_not_seen");
-  if (pivot.asymmetry > kSlanted) warnings->push_back("blades_asymmetric");
+  if (std::abs(pivot.asymmetry) > kSlanted) warnings->push_back("blades_asymmetric");
   if (upper.edge.ambiguity > kSeveralTransitions) warnings->push_back("upper_edge_ambiguous");
   if (lower.edge.ambiguity > kSeveralTransitions) warnings->push_back("lower_edge_ambiguous");
 }
@@ -210,9 +169,7 @@ Pivot LocatePivot(const Photo& photo,
       scene, {PointsOf(left), PointsOf(right)}, hints.pivot_px, parts.at_joint};
   Pivot pivot = FindPivot(photo.grey(), scale, search);
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
-  RefuseOutOfPlane(pivot);
-  RefuseJaws(pivot);
-  RefuseUnknownPivot(pivot, blades);
+  RefuseInconsistent(pivot, blades);
   log->Ran("pivot", pivot.source);
   return pivot;
 }
@@ -261,9 +218,10 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const StoredHints hints = InStored(photo, options.hints);
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  const Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
-  const Blades& blades = parts.blades;
+  Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   const Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
+  DoubtUnlikeEdges(pivot, &parts.blades);
+  const Blades& blades = parts.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
   const BladeFrame frame(map, pivot.point_px, opening.x_in_plane, upper_on_left);

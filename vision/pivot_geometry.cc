@@ -100,7 +100,7 @@ EdgeMirror MirrorOf(const EdgePair& edges) {
 
 double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
   const Passing by = PassingBy(edges, pivot_px);
-  return std::abs(by.left - by.right);
+  return by.left - by.right;
 }
 
 double EdgeOverlap(const EdgePair& edges, const Vector2d& pivot_px) {

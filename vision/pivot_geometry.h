@@ -24,9 +24,9 @@ struct EdgeMirror {
 };
 [[nodiscard]] EdgeMirror MirrorOf(const EdgePair& edges);
 
-// How differently the two edges pass by the pivot: difference of their signed distances from it
-// over the length of the blades. Blades in one plane pass alike (below 0.1); angled ones (Lister,
-// Potts) do not.
+// How differently the two edges pass by the pivot: the left one's distance from it less the right
+// one's, over the length of the blades. Blades in one plane pass alike (within 0.1); angled ones
+// (Lister, Potts) do not.
 [[nodiscard]] double EdgeAsymmetry(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
 // How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two

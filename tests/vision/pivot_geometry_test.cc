@@ -55,12 +55,12 @@ TEST(EdgeOverlap, IsWhatTheEdgesPassThePivotBy) {
   }
 }
 
-TEST(EdgeAsymmetry, GrowsByTwiceThePivotsShareAside) {
+TEST(EdgeAsymmetry, ChangesByTwiceThePivotsShareAside) {
   constexpr double kClose = 0.005;
   const EdgePair edges = Edges(20 * kDegree, 0.08);
   const Vector2d aside = kPivot + Vector2d(0, 0.1 * kLength);
   const double cosine = std::cos(10 * kDegree + std::asin(0.08));
-  EXPECT_NEAR(EdgeAsymmetry(edges, aside), 0.2 * cosine, kClose);
+  EXPECT_NEAR(EdgeAsymmetry(edges, aside), -0.2 * cosine, kClose);
   EXPECT_NEAR(EdgeOverlap(edges, aside), 0.08, kClose);
 }
 

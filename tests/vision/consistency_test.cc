@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/consistency.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kLength = 300;  // px, pivot to tips
+
+Pivot PivotSeen(double asymmetry) {
+  Pivot pivot;
+  pivot.point_px.setZero();
+  pivot.covariance_px2.setIdentity();
+  pivot.source = "screw";
+  pivot.asymmetry = asymmetry;
+  pivot.overlap = 0.09;
+  return pivot;
+}
+
+// The upper blade on the left.
+Blades BladesWithRivals(double upper_px, double lower_px) {
+  Blades blades;
+  blades.upper.on_left = true;
+  blades.lower.on_left = false;
+  blades.upper.end.point_px = {kLength, -80};
+  blades.lower.end.point_px = {kLength, 80};
+  blades.upper.edge.rival_px = upper_px;
+  blades.lower.edge.rival_px = lower_px;
+  return blades;
+}
+
+Reason ReasonFor(const Pivot& pivot) {
+  try {
+    RefuseInconsistent(pivot, BladesWithRivals(0, 0));
+  } catch (const Refused& refused) {
+    return refused.reason();
+  }
+  return Reason::kFitFailed;  // stands for none
+}
+
+TEST(RefuseInconsistent, SaysWhatIsWrong) {
+  EXPECT_EQ(ReasonFor(PivotSeen(0.05)), Reason::kFitFailed);
+  EXPECT_EQ(ReasonFor(PivotSeen(0.25)), Reason::kOutOfPlane);
+  EXPECT_EQ(ReasonFor(PivotSeen(-0.25)), Reason::kOutOfPlane);
+  Pivot jaws = PivotSeen(0);
+  jaws.overlap = 0.01;
+  EXPECT_EQ(ReasonFor(jaws), Reason::kNotScissors);
+  jaws.overlap_sigma = 0.05;  // it may be scissors after all
+  EXPECT_EQ(ReasonFor(jaws), Reason::kFitFailed);
+  Pivot vague = PivotSeen(0);
+  vague.covariance_px2 *= 0.2 * kLength * 0.2 * kLength;
+  EXPECT_EQ(ReasonFor(vague), Reason::kFitFailed);
+  vague.source = "geometry";
+  EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
+}
+
+// The left edge passes the pivot by 9 px less than the right one: so it would if its border were
+// the transition 9 px further out, or the right one's 9 px further in.
+TEST(DoubtUnlikeEdges, DoubtsTheEdgeWhoseOtherTransitionWouldMakeThemAlike) {
+  const Pivot pivot = PivotSeen(-0.03);
+  Blades upper = BladesWithRivals(9, 9);
+  DoubtUnlikeEdges(pivot, &upper);
+  EXPECT_GT(upper.upper.edge.ambiguity, 0.5);
+  EXPECT_GT(upper.upper.edge.common_sigma_px, 5);
+  EXPECT_EQ(upper.lower.edge.ambiguity, 0);
+  Blades lower = BladesWithRivals(-9, -9);
+  DoubtUnlikeEdges(pivot, &lower);
+  EXPECT_EQ(lower.upper.edge.ambiguity, 0);
+  EXPECT_GT(lower.lower.edge.ambiguity, 0.5);
+}
+
+TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
+  for (const auto& [asymmetry, rival_px] : {std::pair(0.005, -9.0), std::pair(-0.08, 9.0)}) {
+    Blades blades = BladesWithRivals(rival_px, 0);
+    DoubtUnlikeEdges(PivotSeen(asymmetry), &blades);
+    EXPECT_EQ(blades.upper.edge.ambiguity, 0) << asymmetry;
+  }
+  Blades unseen = BladesWithRivals(9, 0);
+  Pivot pivot = PivotSeen(-0.03);
+  pivot.source = "geometry";  // then it lies where the edges are alike
+  DoubtUnlikeEdges(pivot, &unseen);
+  EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/located_blade.h"
+#include "vision/pivot.h"
+
+namespace bladecurve {
+
+// Throws Refused where edges and pivot cannot be those of flat scissors: kOutOfPlane for angled
+// blades, kNotScissors for jaws that meet instead of crossing, kAmbiguousPivot where neither a
+// screw nor the blades tell where they turn.
+void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
+
+// Blades mirror each other. Where the edges do not, and would if the other transition beside one of
+// them were its border, that may well be so (a bright bevel on a bright ground): such an edge
+// becomes ambiguous, and less certain by 0.6 of the way to the other transition.
+void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
+
+}  // namespace bladecurve
