@@ -20,7 +20,7 @@ namespace {
 constexpr double kThresholds[] = {8, 16, 4, 24, 6, 12, 3, 32, 2, 48, 64};
 
 // So many thresholds show the same good blades that more of them would change nothing.
-constexpr int kEnough = 4;
+constexpr int kEnough = 5;
 
 bool Settled(const std::vector<Candidate>& candidates) {
   constexpr double kGood = 0.9;
