@@ -67,6 +67,12 @@ Offset MeanOffset(const LocatedEdge& edge, const Line& line) {
   return {sum / count, std::sqrt(variance * edge.correlation_px) / count};
 }
 
+cv::Mat PhotographOf(const Line& line, const EdgeLook& look, Gaussian& random) {
+  const cv::Mat coverage =
+      testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px);
+  return testing::Photographed(coverage, look, random);
+}
+
 TEST(LocateEdge, StraightEdgesOfAnyDirectionHaveNoBiasAndAnHonestSigma) {
   constexpr int kTrials = 60;
   Gaussian random(11);
@@ -74,10 +80,7 @@ TEST(LocateEdge, StraightEdgesOfAnyDirectionHaveNoBiasAndAnHonestSigma) {
   double sum = 0, squares = 0, normalized = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Line line = RandomLine(random);
-    const cv::Mat grey = testing::Photographed(
-        testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
-        look,
-        random);
+    const cv::Mat grey = PhotographOf(line, look, random);
     const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 2.5, -2));
     const Offset offset = MeanOffset(edge, line);
     sum += offset.mean;
@@ -102,10 +105,7 @@ TEST(LocateEdge, NoiseAQuarterOfTheStepLosesLittleOfTheInformation) {
   std::vector<double> lost;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Line line = RandomLine(random);
-    const cv::Mat grey = testing::Photographed(
-        testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
-        look,
-        random);
+    const cv::Mat grey = PhotographOf(line, look, random);
     const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 2.5, -2));
     const Vector2d center(kSide / 2, kSide / 2);
     const Vector2d middle = center + (line.offset - line.normal.dot(center)) * line.normal;
@@ -166,10 +166,7 @@ TEST(LocateEdge, EncodedPicturesNeedTheirToneCurve) {
   Gaussian random(14);
   const Line line = RandomLine(random);
   const EdgeLook look{1.0, 20, 200, 1, 2.2};
-  const cv::Mat grey = testing::Photographed(
-      testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
-      look,
-      random);
+  const cv::Mat grey = PhotographOf(line, look, random);
   const Offset known =
       MeanOffset(LocateEdge(grey, testing::GammaCurve(2.2), GuessOf(line, 1, -1)), line);
   EXPECT_LT(std::abs(known.mean), kKnown);
@@ -259,10 +256,7 @@ TEST(LocateEdge, ABoundBelowTheTrueBlurMovesNoPlainEdge) {
   const EdgeLook look{1.2, 60, 180, 1.5, 1};
   for (int trial = 0; trial < 6; ++trial) {
     const Line line = RandomLine(random);
-    const cv::Mat grey = testing::Photographed(
-        testing::HalfPlaneCoverage({kSide, kSide}, line.normal, line.offset, look.blur_px),
-        look,
-        random);
+    const cv::Mat grey = PhotographOf(line, look, random);
     EdgeOptions options;
     options.most_blur_px = 0.7;
     const LocatedEdge edge =
