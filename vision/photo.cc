@@ -128,9 +128,11 @@ Photo Photo::Load(const std::filesystem::path& path) {
     photo.bytes_ = ReadWholeFile(path);
     DecodedPhoto decoded;
     std::string sha256;
+    DecodeOptions options;
+    options.num_threads = UsableThreads();  // the digest takes a small part of the time
     ParallelFor(2, [&](int part) {
       if (part == 0) {
-        decoded = Decode(photo.bytes_, {});
+        decoded = Decode(photo.bytes_, options);
       } else {
         sha256 = Sha256Hex(photo.bytes_);
       }

@@ -13,6 +13,7 @@ struct DecodeOptions {
   bool colour = false;  // CV_8UC3 BGR instead of CV_8UC1 luma
   int long_side =
       0;  // a codec may decode smaller as long as the longest side keeps this; 0: full size
+  int num_threads = 1;  // a codec may use as many; the pixels are the same
 };
 
 // What a file says beside its pixels, as far as its container knows.

@@ -11,12 +11,14 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 // jpeglib.h needs FILE and size_t declared before it.
 #include <jpeglib.h>
 
 #include "process_folder.h"
+#include "vision/parallel.h"
 #include "vision/png_writer.h"
 #include "vision/refused.h"
 #include "vision/sha256.h"
@@ -170,6 +172,35 @@ TEST(PhotoLoad, RefusesTruncatedFilesWhereverTheyEnd) {
         Write("cut.png",
               png.substr(0, static_cast<size_t>(share * static_cast<double>(png.size())))),
         "");
+  }
+}
+
+// Loads with as many threads.
+cv::Mat GreyOn(int num_threads, const fs::path& path) {
+  cv::Mat grey;
+  ParallelFor(1, num_threads, [&](int) { grey = Photo::Load(path).grey(); });
+  return grey;
+}
+
+TEST(PhotoLoad, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
+  cv::Mat picture = Gradient(1531, 1023);
+  cv::circle(picture, {700, 716}, 200, 30, 7);  // where the upper and the lower rows meet
+  for (const JpegSettings& settings : {JpegSettings{}, JpegSettings{JCS_RGB, 3, 0, ""}}) {
+    const fs::path path = Write("large.jpg", Jpeg(picture, settings));
+    const cv::Mat whole = GreyOn(1, path), in_two = GreyOn(2, path);
+    EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
+    EXPECT_LT(cv::norm(whole, picture, cv::NORM_INF), 16);
+  }
+}
+
+TEST(PhotoLoad, RefusesTruncatedLargePicturesOnAnyNumberOfThreads) {
+  const std::string jpeg = Jpeg(Gradient(1531, 1023), {});
+  for (const double share : {0.3, 0.65, 0.75, 0.95}) {
+    const fs::path path =
+        Write("cut-large.jpg",
+              jpeg.substr(0, static_cast<size_t>(share * static_cast<double>(jpeg.size()))));
+    EXPECT_THROW(GreyOn(1, path), Refused);
+    EXPECT_THROW(GreyOn(2, path), Refused);
   }
 }
 
