@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace bladecurve {
 namespace {
@@ -69,6 +69,63 @@ double RobustScatter(const Eigen::VectorXd& residuals, const Eigen::VectorXd& we
   return 1.4826 * *middle + kScatterFloor;
 }
 
+// What BackgroundModel holds, as its fit wants it.
+struct Surface {
+  Eigen::MatrixXd coefficients;  // kTerms x channels
+  Eigen::VectorXd scatter;       // one a channel
+};
+
+Eigen::MatrixXd Residuals(const Surface& surface, const Samples& samples) {
+  return samples.values - samples.terms * surface.coefficients;
+}
+
+// Squared Cauchy weights: scissors that cover a third of the picture have no say.
+Eigen::VectorXd Weights(const Eigen::MatrixXd& residuals, const Eigen::VectorXd& scatter) {
+  const Eigen::VectorXd squared =
+      (residuals * scatter.cwiseInverse().asDiagonal()).rowwise().squaredNorm();
+  return (1 + squared.array() / 4).inverse().square().matrix();
+}
+
+// One round; leaves the weights for the next.
+Surface Reweight(const Samples& samples, Eigen::VectorXd* weights) {
+  const Eigen::Matrix<double, kTerms, Eigen::Dynamic> weighted =
+      samples.terms.transpose() * weights->asDiagonal();
+  const Eigen::Matrix<double, kTerms, kTerms> normal =
+      weighted * samples.terms + 1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
+  Surface surface{normal.ldlt().solve(weighted * samples.values), {}};
+  const Eigen::MatrixXd residuals = Residuals(surface, samples);
+  surface.scatter.resize(residuals.cols());
+  for (Eigen::Index c = 0; c < residuals.cols(); ++c)
+    surface.scatter[c] = RobustScatter(residuals.col(c), *weights);
+  *weights = Weights(residuals, surface.scatter);
+  return surface;
+}
+
+// Reweights until nothing changes any more.
+Surface Settle(const Samples& samples, Eigen::VectorXd weights) {
+  Surface surface = Reweight(samples, &weights);
+  for (int i = 1; i < kIterations; ++i) {
+    const Surface before = std::exchange(surface, Reweight(samples, &weights));
+    // No term exceeds 1 in the picture, so the background has not moved by more anywhere.
+    const Eigen::RowVectorXd moved =
+        (surface.coefficients - before.coefficients).cwiseAbs().colwise().sum();
+    if (moved.transpose().cwiseQuotient(surface.scatter).maxCoeff() <= kSettled) break;
+  }
+  return surface;
+}
+
+// A tenth of the samples lead nearly there, at a tenth of the cost.
+Surface SettleFromFew(const Samples& all) {
+  constexpr Eigen::Index kStep = 10;
+  constexpr Eigen::Index kLeast = 300;  // fewer lead astray
+  const Eigen::Index count = all.terms.rows() / kStep;
+  if (count < kLeast) return Settle(all, Eigen::VectorXd::Ones(all.terms.rows()));
+  const auto few = Eigen::seqN(0, count, kStep);
+  const Surface rough = Settle({all.terms(few, Eigen::all), all.values(few, Eigen::all)},
+                               Eigen::VectorXd::Ones(count));
+  return Settle(all, Weights(Residuals(rough, all), rough.scatter));
+}
+
 // The background's value along one row of a window, a cubic in x, for one channel.
 class RowOfBackground {
  public:
@@ -120,38 +177,17 @@ cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, cons
 }  // namespace
 
 BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
-  const Samples samples = TakeSamples(image, ignore);
   const int channels = image.channels();
-  const Eigen::Index count = samples.terms.rows();
-  Eigen::VectorXd weights = Eigen::VectorXd::Ones(count);
-  Eigen::MatrixXd coefficients = Eigen::MatrixXd::Zero(kTerms, channels);
+  const Samples samples = TakeSamples(image, ignore);
+  Surface surface{Eigen::MatrixXd::Zero(kTerms, channels),
+                  Eigen::VectorXd::Constant(channels, kScatterFloor)};
+  if (samples.terms.rows() >= kTerms) surface = SettleFromFew(samples);
   BackgroundModel model;
-  model.scatter.assign(static_cast<std::size_t>(channels), kScatterFloor);
-  double change = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kIterations && change > kSettled && count >= kTerms; ++i) {
-    const Eigen::Matrix<double, kTerms, Eigen::Dynamic> weighted =
-        samples.terms.transpose() * weights.asDiagonal();
-    const Eigen::Matrix<double, kTerms, kTerms> normal =
-        weighted * samples.terms + 1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
-    const Eigen::MatrixXd before = coefficients;
-    coefficients = normal.ldlt().solve(weighted * samples.values);
-    const Eigen::MatrixXd residuals = samples.values - samples.terms * coefficients;
-    Eigen::VectorXd squared = Eigen::VectorXd::Zero(count);
-    change = 0;
-    for (int c = 0; c < channels; ++c) {
-      const double scatter = RobustScatter(residuals.col(c), weights);
-      model.scatter[static_cast<std::size_t>(c)] = scatter;
-      // No term exceeds 1 in the picture, so the background has not moved by more anywhere.
-      change = std::max(change, (coefficients - before).col(c).lpNorm<1>() / scatter);
-      squared += (residuals.col(c) / scatter).cwiseAbs2();
-    }
-    // Squared Cauchy weights: scissors that cover a third of the picture have no say.
-    weights = (1 + squared.array() / 4).inverse().square().matrix();
-  }
   for (int c = 0; c < channels; ++c) {
     std::array<double, kTerms> row{};
-    for (int t = 0; t < kTerms; ++t) row[static_cast<std::size_t>(t)] = coefficients(t, c);
+    for (int t = 0; t < kTerms; ++t) row[static_cast<std::size_t>(t)] = surface.coefficients(t, c);
     model.coefficients.push_back(row);
+    model.scatter.push_back(surface.scatter[c]);
   }
   return model;
 }

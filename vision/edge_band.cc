@@ -51,9 +51,7 @@ Foot FindFoot(const EdgePath& path, const Vector2d& pixel, int start) {
     // them.
     const double seen = 1 + path.curvatures[Index(foot.sample)] * foot.across;
     const int next =
-        std::clamp(foot.sample + static_cast<int>(std::lround(foot.along / std::max(seen, 0.2))),
-                   0,
-                   path.size() - 1);
+        std::clamp(foot.sample + cvRound(foot.along / std::max(seen, 0.2)), 0, path.size() - 1);
     if (next == foot.sample) break;
     foot.sample = next;
   }
@@ -86,8 +84,8 @@ class RunScanner {
     const double reach = std::max(inner_px_, outer_px_) + 1;
     const double a = path_.points[Index(run.first)][axis], b = path_.points[Index(run.last)][axis];
     const int limit = (run.along_x ? grey_.cols : grey_.rows) - 1;
-    const int low = std::max(0, static_cast<int>(std::ceil(std::min(a, b) - reach)));
-    const int high = std::min(limit, static_cast<int>(std::floor(std::max(a, b) + reach)));
+    const int low = std::max(0, cvCeil(std::min(a, b) - reach));
+    const int high = std::min(limit, cvFloor(std::max(a, b) + reach));
     const bool forward = b >= a;
     int sample = forward ? run.first : run.last;
     const int toward = forward ? 1 : -1, end = forward ? run.last : run.first;
@@ -106,8 +104,8 @@ class RunScanner {
     const double center = point[other] + (line - point[axis]) * tangent[other] / tangent[axis];
     const double out = outer_px_ / normal[other], in = -inner_px_ / normal[other];
     const int limit = (run.along_x ? grey_.rows : grey_.cols) - 1;
-    const int low = std::max(0, static_cast<int>(std::ceil(center + std::min(out, in) - 1)));
-    const int high = std::min(limit, static_cast<int>(std::floor(center + std::max(out, in) + 1)));
+    const int low = std::max(0, cvCeil(center + std::min(out, in) - 1));
+    const int high = std::min(limit, cvFloor(center + std::max(out, in) + 1));
     for (int cross = low; cross <= high; ++cross) {
       const int x = run.along_x ? line : cross, y = run.along_x ? cross : line;
       const Foot foot = FindFoot(path_, Vector2d(x, y), sample);
@@ -131,12 +129,11 @@ class RunScanner {
 };
 
 float Bilinear(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
-  const double floor_x = std::floor(at.x()), floor_y = std::floor(at.y());
-  const int x = static_cast<int>(floor_x), y = static_cast<int>(floor_y);
+  const int x = cvFloor(at.x()), y = cvFloor(at.y());
   if (x < 0 || y < 0 || x + 1 >= grey.cols || y + 1 >= grey.rows) {
     return std::numeric_limits<float>::quiet_NaN();
   }
-  const auto u = static_cast<float>(at.x() - floor_x), v = static_cast<float>(at.y() - floor_y);
+  const auto u = static_cast<float>(at.x() - x), v = static_cast<float>(at.y() - y);
   const uchar* upper = grey.ptr<uchar>(y) + x;
   const uchar* lower = grey.ptr<uchar>(y + 1) + x;
   const float top = tone.linear[upper[0]] * (1 - u) + tone.linear[upper[1]] * u;

@@ -142,8 +142,9 @@ double BlurOf(double step_variance) {
 double Clearness(const Place& place, double background_response, double sharp_variance) {
   constexpr double kPenumbra =
       2;  // px^2 of variance beyond the sharp steps': half-way from blade to soft shadow
-  if (place.IsHalo()) return 0;
-  const double relative = std::max(place.AboveGradient(), 0.0) / (kSigmas * background_response);
+  const double above = place.AboveGradient();
+  if (above <= 0 || place.IsHalo()) return 0;
+  const double relative = above / (kSigmas * background_response);
   const double softness = std::max(place.Variance() - sharp_variance, 0.0) / kPenumbra;
   return place.Peakedness() * (1 - std::exp2(-relative * relative)) / (1 + softness * softness);
 }
