@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/screw_slot.h"
+
 namespace bladecurve {
 namespace {
 
@@ -60,6 +62,25 @@ Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
       std::max(0.0, (1 - kFlattened) * screw.semi_major_px - screw.semi_minor_px);
   const Vector2d major(std::cos(screw.angle_rad), std::sin(screw.angle_rad));
   return AlongAcross(major, even_px, std::hypot(even_px, one_sided_px));
+}
+
+// Two estimates of one place as one; both are doubted where they part by more than chance explains.
+PlacePx Combined(const PlacePx& a, const PlacePx& b) {
+  constexpr double kByChance = 6;  // chi-square of two coordinates, 95 %
+  const Vector2d apart = b.point_px - a.point_px;
+  const Eigen::Matrix2d share = a.covariance_px2 * (a.covariance_px2 + b.covariance_px2).inverse();
+  const double chi_square = apart.dot((a.covariance_px2 + b.covariance_px2).ldlt().solve(apart));
+  const Eigen::Matrix2d covariance = a.covariance_px2 - share * a.covariance_px2;
+  return {a.point_px + share * apart,
+          std::max(1.0, chi_square / kByChance) * 0.5 * (covariance + covariance.transpose())};
+}
+
+// By its rim, and by its slot where it has one.
+PlacePx CentreOf(const Screw& screw, const cv::Mat& grey, const ToneCurve& tone) {
+  const PlacePx rim{screw.center_px, screw.covariance_px2 + ShadingCovariance(screw)};
+  const double radius_px = std::sqrt(screw.semi_major_px * screw.semi_minor_px);
+  const std::optional<ScrewSlot> slot = FindSlot(grey, tone, screw.center_px, radius_px);
+  return slot ? Combined(rim, {slot->center_px, slot->covariance_px2}) : rim;
 }
 
 // ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
@@ -134,10 +155,10 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.screw = LookForScrew(grey, scale.tone, search, pivot.point_px);
   }
   if (pivot.screw) {
-    const PlacePx foot = BelowHead(pivot.screw->center_px, scale, search.scene);
+    const PlacePx head = CentreOf(*pivot.screw, grey, scale.tone);
+    const PlacePx foot = BelowHead(head.point_px, scale, search.scene);
     pivot.point_px = foot.point_px;
-    pivot.covariance_px2 =
-        pivot.screw->covariance_px2 + ShadingCovariance(*pivot.screw) + foot.covariance_px2;
+    pivot.covariance_px2 = head.covariance_px2 + foot.covariance_px2;
     pivot.source = "screw";
   }
   pivot.asymmetry = EdgeAsymmetry(search.edges, pivot.point_px);
