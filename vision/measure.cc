@@ -149,7 +149,7 @@ Parts LocateParts(const Photo& photo,
     if (part == 0) {
       parts.blades = LocateAndTrim(photo, scale, scene, upper_on_left, log);
     } else if (!hints.pivot_px) {
-      parts.at_joint = LookAtJoint(photo.grey(), scale.tone, scene);
+      parts.at_joint = LookAtJoint(photo.grey(), scale, scene);
     }
   });
   return parts;

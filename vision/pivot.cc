@@ -92,8 +92,12 @@ double Credence(const Screw& screw) {
 
 // Heads of screws and rivets are a quarter to nine tenths of the shank wide; engraved marks are
 // smaller.
-ScrewSearch SearchForHead(const Scene& scene, const Vector2d& guess_px, double radius_px) {
+ScrewSearch SearchForHead(const ScaleResult& scale,
+                          const Scene& scene,
+                          const Vector2d& guess_px,
+                          double radius_px) {
   ScrewSearch search;
+  if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
   search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
   search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
   search.guess_px = guess_px;
@@ -102,25 +106,26 @@ ScrewSearch SearchForHead(const Scene& scene, const Vector2d& guess_px, double r
 }
 
 // About a place on the overlap, as a share of the way from the shanks' crotch to the blades'.
-ScrewSearch SearchOverlap(const Scene& scene, double share) {
+ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double share) {
   const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
   const double radius_px =
       std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
-  return SearchForHead(scene, scene.shank_crotch_px + share * overlap, radius_px);
+  return SearchForHead(scale, scene, scene.shank_crotch_px + share * overlap, radius_px);
 }
 
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
-                                  const ToneCurve& tone,
+                                  const ScaleResult& scale,
                                   const PivotSearch& known,
                                   const Vector2d& guess_px) {
   const Scene& scene = known.scene;
   std::optional<Screw> clearest = known.at_joint;
   for (const ScrewSearch& search :
-       {SearchForHead(scene, guess_px, 0.35 * scene.shank_width_px), SearchOverlap(scene, 0.25)}) {
+       {SearchForHead(scale, scene, guess_px, 0.35 * scene.shank_width_px),
+        SearchOverlap(scale, scene, 0.25)}) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
-    const std::optional<Screw> screw = FindScrew(grey, tone, search);
+    const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
   return clearest;
@@ -140,8 +145,10 @@ Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMi
 
 }  // namespace
 
-std::optional<Screw> LookAtJoint(const cv::Mat& grey, const ToneCurve& tone, const Scene& scene) {
-  return FindScrew(grey, tone, SearchOverlap(scene, 0.5));
+std::optional<Screw> LookAtJoint(const cv::Mat& grey,
+                                 const ScaleResult& scale,
+                                 const Scene& scene) {
+  return FindScrew(grey, scale.tone, SearchOverlap(scale, scene, 0.5));
 }
 
 Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
@@ -152,7 +159,7 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.covariance_px2.setIdentity();
     pivot.source = "hint";
   } else {
-    pivot.screw = LookForScrew(grey, scale.tone, search, pivot.point_px);
+    pivot.screw = LookForScrew(grey, scale, search, pivot.point_px);
   }
   if (pivot.screw) {
     const PlacePx head = CentreOf(*pivot.screw, grey, scale.tone);

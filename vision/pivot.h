@@ -37,7 +37,7 @@ struct PivotSearch {
 // The head where joints mostly have theirs: from a third to two thirds of the way from the shanks'
 // crotch to the blades'. Needs no edges.
 [[nodiscard]] std::optional<Screw> LookAtJoint(const cv::Mat& grey,
-                                               const ToneCurve& tone,
+                                               const ScaleResult& scale,
                                                const Scene& scene);
 
 // In the plane of the edges: below the screw's head if that is seen; else on the line about which

@@ -94,7 +94,7 @@ WeighedCenter WeighCenters(const cv::Mat& grey,
   std::vector<const FoundRim*> rims{&all.front()};
   std::vector<std::pair<double, Eigen::Vector2d>> centers{{1, best.rim.center}};
   for (const FoundRim& found : all) {
-    const double behind = all.front().evidence - found.evidence;
+    const double behind = all.front().Preference() - found.Preference();
     if (behind > kUnlikely) break;
     const bool differs = std::all_of(rims.begin(), rims.end(), [&](const FoundRim* rim) {
       return Rivals(rim->fit.rim, found.fit.rim);

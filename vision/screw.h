@@ -29,6 +29,9 @@ struct ScrewSearch {
   double radius_px = 0;         // how far from there the centre may lie; time grows as its square
   double min_semi_axis_px = 3;  // size of the head, from the width of the shank
   double max_semi_axis_px = 0;
+  // d image / d plane of the head, of any scale, where it is known how obliquely that is seen: a
+  // round head shows as an ellipse of known shape.
+  std::optional<Eigen::Matrix2d> view;
   // Below, nothing is returned: shank edges, grain, cloth and lettering reach 5 by chance. Blade
   // tips, which are round, reach 13; they must not be within the radius.
   double least_evidence = 7;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/screw_search.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -38,6 +39,19 @@ double Evidence(double support, double radius_judged_px, double axis_ratio, doub
   const double elongation = std::log(axis_ratio) / kUsualElongation;
   return places * divergence - 0.5 * elongation * elongation +
          kContrastWeight * (std::min(contrast_score, kMostContrast) - kNeutralContrast);
+}
+
+// Of rims of one head, what speaks against this one where the view is known: ln of the odds. A rim
+// that is longer than the view explains follows the head on one side and something else on the
+// other. No reason to see no head at all, hence bounded.
+double UnlikeView(const RimEllipse& rim, const ScrewSearch& search) {
+  constexpr double kScatter = 0.03;  // of ln(a/b), the fit's own
+  constexpr double kMost = 6;
+  if (!search.view) return 0;
+  const Eigen::Vector2d axes =
+      Eigen::JacobiSVD<Eigen::Matrix2d>(search.view->inverse() * rim.shape).singularValues();
+  const double sigmas = std::log(axes[0] / axes[1]) / kScatter;
+  return std::min(0.5 * sigmas * sigmas, kMost);
 }
 
 bool Admissible(const RimEllipse& rim, const ScrewSearch& search) {
@@ -101,7 +115,7 @@ class Octave {
   }
 
   static void KeepBetter(const std::optional<FoundRim>& found, std::optional<FoundRim>& best) {
-    if (found && (!best || found->evidence > best->evidence)) best = found;
+    if (found && (!best || found->Preference() > best->Preference())) best = found;
   }
 
   // The rim near a start, and what speaks for it. Both in picture pixels.
@@ -118,7 +132,9 @@ class Octave {
     const Eigen::Vector2d axes = fit->rim.SemiAxes();
     const double contrast =
         field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));
-    return FoundRim{*fit, Evidence(fit->support, judged_radius, axes[0] / axes[1], contrast)};
+    return FoundRim{*fit,
+                    Evidence(fit->support, judged_radius, axes[0] / axes[1], contrast),
+                    UnlikeView(fit->rim, search_)};
   }
 
   // The fit may have stopped at a rim that shares only an arc with the head's: starts on all sides
@@ -167,7 +183,7 @@ std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
   for (const std::vector<FoundRim>& octave : by_octave)
     all.insert(all.end(), octave.begin(), octave.end());
   std::stable_sort(all.begin(), all.end(), [](const FoundRim& a, const FoundRim& b) {
-    return a.evidence > b.evidence;
+    return a.Preference() > b.Preference();
   });
   std::erase_if(all, [](const FoundRim& found) { return found.fit.third_support < kLeastThird; });
   return all;

@@ -17,6 +17,8 @@ inline constexpr double kLeastAxisRatio = 0.75;
 struct FoundRim {
   RimFit fit;  // in picture pixels
   double evidence = 0;
+  double unlike_view = 0;  // what speaks against it beside others of the same head
+  [[nodiscard]] double Preference() const { return evidence - unlike_view; }
 };
 
 // All rims of all sizes within the search, the best first; of the best also those that lie around
