@@ -253,7 +253,8 @@ std::optional<ScrewSlot> FindSlot(const cv::Mat& grey,
   const double square = radius_px * radius_px;
   return ScrewSlot{head.Place(ends_seen ? middle : 0, slot.across),
                    square * (along_sigma * along_sigma * along * along.transpose() +
-                             across_sigma * across_sigma * across * across.transpose())};
+                             across_sigma * across_sigma * across * across.transpose()),
+                   ends_seen};
 }
 
 }  // namespace bladecurve

@@ -16,6 +16,7 @@ namespace bladecurve {
 struct ScrewSlot {
   Eigen::Vector2d center_px;
   Eigen::Matrix2d covariance_px2;  // much larger along the slot than across it
+  bool ends_seen = false;          // both, at the rim
 };
 
 // The dark slot of a head about center_px of radius_px, both good to a fifth of the radius;
