@@ -58,7 +58,7 @@ RimFit Refine(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged) 
   const double radius = judged.rim.MeanRadius();
   const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
   // A view 11 degrees off the axis flattens a round head by 2 %.
-  const RimFitOptions options{half_px, half_px, true, 400, 8, 0.002, 0, 0.02};
+  const RimFitOptions options{half_px, half_px, true, true, 400, 8, 0.002, 0, 0.02};
   std::optional<RimFit> fit = FitRim(light.grey, judged.rim.Into(light.origin, 1), options);
   if (!fit) return judged;
   fit->rim = fit->rim.OutOf(light.origin, 1);

@@ -12,11 +12,8 @@
 namespace bladecurve {
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr int kFewestProfiles = 24;
 constexpr double kTapPx = 0.5;                // spacing along a profile
-constexpr double kMostRelativeShift = 0.6;    // of half a profile: a larger one is an extrapolation
 constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
 
 double Bilinear(const cv::Mat& picture, double x, double y) {
@@ -37,27 +34,22 @@ Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
 }
 
 // Takes mean and slope out of every profile: shading says nothing about the place of the rim.
-Rows WithoutTrend(const RimProfiles& profiles) {
+RimRows WithoutTrend(const RimProfiles& profiles) {
   const Eigen::VectorXd& w = profiles.window;
   const Eigen::VectorXd wt =
       w.cwiseProduct(profiles.t);  // the window is even: constant and slope are orthogonal
   const Eigen::VectorXd mean = profiles.values * w / w.sum();
   const Eigen::VectorXd slope = profiles.values * wt / wt.dot(profiles.t);
-  Rows detrended = profiles.values.colwise() - mean;
+  RimRows detrended = profiles.values.colwise() - mean;
   detrended.noalias() -= slope * profiles.t.transpose();
   return detrended;
 }
 
-struct CommonShape {
-  Eigen::VectorXd value, derivative;  // over the taps; weighted norm of `value` is 1
-  double center_px = 0;               // where along the profile its structure lies
-};
-
 // The dominant principal component of the profiles, each scaled so that a glint has no more say
 // than others.
-std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Rows& detrended) {
+std::optional<RimShape> FindCommonShape(const RimProfiles& profiles, const RimRows& detrended) {
   const Eigen::VectorXd root_window = profiles.window.cwiseSqrt();
-  Rows scaled = detrended * root_window.asDiagonal();
+  RimRows scaled = detrended * root_window.asDiagonal();
   const Eigen::VectorXd norms = scaled.rowwise().norm();
   const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
   scaled.array().colwise() /= norms.array() + typical;
@@ -68,7 +60,7 @@ std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Ro
     component.noalias() = scaled.transpose() * shares;
   }
   if (!(component.norm() > 1e-12)) return std::nullopt;
-  CommonShape shape;
+  RimShape shape;
   shape.value = component.normalized().cwiseQuotient(root_window);
   const Eigen::Index last = shape.value.size() - 1;
   shape.derivative.resize(last + 1);
@@ -84,33 +76,10 @@ std::optional<CommonShape> FindCommonShape(const RimProfiles& profiles, const Ro
   return shape;
 }
 
-// The profiles averaged along the rim by a Gaussian, times the sum of its weights.
-struct SmoothedProfiles {
-  Rows values;
-  double weights = 1;
-};
-
-SmoothedProfiles SmoothAlongRim(const Rows& profiles) {
-  const Eigen::Index count = profiles.rows();
-  const double sigma = std::max(0.7, kSmoothingTurns * static_cast<double>(count));
-  const auto reach = static_cast<Eigen::Index>(std::ceil(2.5 * sigma));
-  SmoothedProfiles smooth{profiles};
-  for (Eigen::Index k = 1; k <= reach; ++k) {
-    const double weight = std::exp(-0.5 * static_cast<double>(k * k) / (sigma * sigma));
-    // Both neighbours k away; the rim is closed.
-    smooth.values.topRows(count - k) += weight * profiles.bottomRows(count - k);
-    smooth.values.bottomRows(k) += weight * profiles.topRows(k);
-    smooth.values.bottomRows(count - k) += weight * profiles.topRows(count - k);
-    smooth.values.topRows(k) += weight * profiles.bottomRows(k);
-    smooth.weights += 2 * weight;
-  }
-  return smooth;
-}
-
 // Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
 std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
-                                   const Rows& detrended,
-                                   const CommonShape& shape) {
+                                   const RimRows& detrended,
+                                   const RimShape& shape) {
   const Eigen::Index taps = detrended.cols();
   Eigen::Matrix<double, Eigen::Dynamic, 4> basis(taps, 4);
   basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
@@ -121,7 +90,8 @@ std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
       weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity()).rightCols<2>();
   const Eigen::Matrix<double, Eigen::Dynamic, 2> solution = detrended * estimator;
 
-  const SmoothedProfiles smooth = SmoothAlongRim(detrended);
+  const double sigma = std::max(0.7, kSmoothingTurns * static_cast<double>(detrended.rows()));
+  const SmoothedRows smooth = SmoothAlongRim(detrended, sigma);
   const Eigen::VectorXd along = smooth.values * profiles.window.cwiseProduct(shape.value);
   const Eigen::VectorXd squares = smooth.values.cwiseAbs2() * profiles.window;
   const double most_shift = kMostRelativeShift * profiles.t[taps - 1];
@@ -139,6 +109,23 @@ std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
 
 }  // namespace
 
+SmoothedRows SmoothAlongRim(const RimRows& rows, double sigma_rows) {
+  const Eigen::Index count = rows.rows();
+  const auto reach = std::min(static_cast<Eigen::Index>(std::ceil(2.5 * sigma_rows)), count / 2);
+  SmoothedRows smooth{rows};
+  for (Eigen::Index k = 1; k <= reach; ++k) {
+    const double weight = std::exp(-0.5 * static_cast<double>(k * k) / (sigma_rows * sigma_rows));
+    // Both neighbours k away; the rim is closed.
+    smooth.values.topRows(count - k) += weight * rows.bottomRows(count - k);
+    smooth.values.bottomRows(k) += weight * rows.topRows(k);
+    smooth.values.bottomRows(count - k) += weight * rows.topRows(count - k);
+    smooth.values.topRows(k) += weight * rows.bottomRows(k);
+    smooth.weights += 2 * weight;
+    smooth.squared_weights += 2 * weight * weight;
+  }
+  return smooth;
+}
+
 RimProfiles SampleProfiles(const cv::Mat& picture,
                            const RimEllipse& rim,
                            const RimSampling& sampling) {
@@ -149,6 +136,7 @@ RimProfiles SampleProfiles(const cv::Mat& picture,
   const int taps = 2 * half_taps + 1;
   RimProfiles profiles;
   profiles.values.resize(count, taps);
+  profiles.jacobian.resize(count, 5);
   profiles.t = Eigen::VectorXd::LinSpaced(taps, -half_taps * kTapPx, half_taps * kTapPx);
   profiles.window = Window(profiles.t, sampling.half_px, sampling.flat_window);
   const Eigen::Matrix2d inverse_shape = rim.shape.inverse();
@@ -160,19 +148,17 @@ RimProfiles SampleProfiles(const cv::Mat& picture,
       const Eigen::Vector2d q = p + profiles.t[k] * n;
       profiles.values(i, k) = Bilinear(picture, q.x(), q.y());
     }
-    profiles.u.push_back(u);
-    Vector5d row;
-    row << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(), n.y() * u.y();
-    profiles.jacobian.push_back(row);
+    profiles.jacobian.row(i) << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(),
+        n.y() * u.y();
   }
   return profiles;
 }
 
-std::optional<std::vector<RimMatch>> MatchProfiles(const RimProfiles& profiles) {
-  const Rows detrended = WithoutTrend(profiles);
-  const std::optional<CommonShape> shape = FindCommonShape(profiles, detrended);
+std::optional<RimMatches> MatchProfiles(const RimProfiles& profiles) {
+  const RimRows detrended = WithoutTrend(profiles);
+  const std::optional<RimShape> shape = FindCommonShape(profiles, detrended);
   if (!shape) return std::nullopt;
-  return MatchToShape(profiles, detrended, *shape);
+  return RimMatches{*shape, MatchToShape(profiles, detrended, *shape)};
 }
 
 }  // namespace bladecurve

@@ -95,6 +95,21 @@ TEST(FindScrew, CenterOfCleanHeadsIsWithinThreeHundredthsOfAPixel) {
   }
 }
 
+// Where the rim runs with the brushing it is lost in grain; weighed alike all round, such heads are
+// off by 0.04 px.
+TEST(FindScrew, BrushedMetalLeavesThreeHundredthsOfAPixelToLargeHeads) {
+  constexpr int kDraws = 16;
+  double sum = 0;
+  for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
+    HeadSpec head = Dressed(RandomHead(60, seed), Look::kSlotted);
+    head.brushed = 0.04;
+    const std::optional<Screw> screw = Find(RenderHead(head), head);
+    ASSERT_TRUE(screw) << "seed " << seed;
+    sum += (screw->center_px - head.center_px).squaredNorm() / 2;
+  }
+  EXPECT_LE(std::sqrt(sum / kDraws), 0.03);
+}
+
 TEST(FindScrew, SmallHeadsAreFoundOrLeftAlone) {
   int found = 0, seen = 0;
   for (const double radius : {5.0, 7.0, 9.0}) {
