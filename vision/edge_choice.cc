@@ -5,110 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/edge_border.h"
 #include "vision/edge_survey.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr float kStiffBend =
-    0.5F;  // once straightened, it takes two clear stations to leave a line
-
 size_t Index(int i) { return static_cast<size_t>(i); }
-
-// Highest clear step of each station.
-std::vector<double> HighestSteps(const StepMap& map) {
-  std::vector<double> highest(Index(map.stations), 1e-9);
-  for (int station = 0; station < map.stations; ++station) {
-    for (int row = 0; row < map.rows; ++row) {
-      const size_t at = map.At(station, row);
-      highest[Index(station)] = std::max(
-          highest[Index(station)], static_cast<double>(std::abs(map.height[at]) * map.clear[at]));
-    }
-  }
-  return highest;
-}
-
-// The line most clearly seen, wherever it lies.
-StepLine ClearestLine(const Survey& survey, double search_px) {
-  return FindBestLine(survey.map,
-                      Scores(survey,
-                             [&](int station, int row) {
-                               return std::abs(survey.FromGuess(station, row)) <= search_px
-                                          ? survey.map.clear[survey.map.At(station, row)]
-                                          : kForbidden;
-                             }),
-                      kStiffBend);
-}
-
-// Of the clear lines about as far apart as bevel and shadow are wide, the outer one.
-StepLine OutermostLine(const Survey& survey, double search_px) {
-  constexpr double kOutwards = 0.055;  // a px: of two clear lines the outer one is the border
-  constexpr double kMostApart = 8;     // px; lines further out are the background's own
-  constexpr double kForHeight = 0.12;  // unless it is much the lower one and near
-  const std::vector<double> highest = HighestSteps(survey.map);
-  const StepLine clearest = ClearestLine(survey, search_px);
-  return FindBestLine(
-      survey.map,
-      Scores(
-          survey,
-          [&](int station, int row) {
-            if (std::abs(survey.FromGuess(station, row)) > search_px) return kForbidden;
-            const double outwards = std::clamp(
-                static_cast<double>(row - clearest.rows[Index(station)]), -kMostApart, kMostApart);
-            const size_t at = survey.map.At(station, row);
-            const double height =
-                std::min(std::abs(survey.map.height[at]) / highest[Index(station)], 1.0);
-            return survey.map.clear[at] *
-                   static_cast<float>(1 + kOutwards * outwards - kForHeight * (1 - height));
-          }),
-      kStiffBend);
-}
-
-// The best line at least `apart` rows further in than `line`, over steps of the given sign.
-StepLine LineWithin(
-    const Survey& survey, const StepLine& line, int apart, double search_px, double sign) {
-  return FindBestLine(survey.map,
-                      Scores(survey,
-                             [&](int station, int row) {
-                               if (row + apart > line.rows[Index(station)] ||
-                                   survey.FromGuess(station, row) < -search_px)
-                                 return kForbidden;
-                               const size_t at = survey.map.At(station, row);
-                               return sign * survey.map.height[at] > 0 ? survey.map.clear[at]
-                                                                       : 0.0F;
-                             }),
-                      kStiffBend);
-}
-
-double LengthOf(const EdgePath& path) {
-  double length = 0;
-  for (size_t i = 1; i < path.points.size(); ++i)
-    length += (path.points[i] - path.points[i - 1]).norm();
-  return length;
-}
-
-// Median height along the line, clear or not.
-double HeightUnder(const StepMap& map, const StepLine& line) {
-  std::vector<double> heights;
-  for (int station = 0; station < map.stations; ++station)
-    heights.push_back(map.height[map.At(station, line.rows[Index(station)])]);
-  return Median(std::move(heights));
-}
-
-// How wide a bevel may be, px: sharper photographs show more of it.
-double WidestBevel(const Survey& survey) {
-  constexpr double kLeast = 7, kPerLength = 0.05;
-  return kLeast + kPerLength * LengthOf(survey.path);
-}
-
-// A fall of light, going outwards, far greater than that of a line: no shadow does that, however
-// soft it is.
-bool FallsDeeper(const StepMap& map, int station, int row, double line_height) {
-  constexpr double kFar = 1.25;  // times the line's height, which a soft step shows little of
-  const float* height = &map.height[map.At(station, row)];
-  return *height < -kFar * std::abs(line_height) && *height <= height[-1] && *height <= height[1];
-}
 
 // Share of its stations in which the line is clear or a deep fall of light, however soft.
 double SeenShare(const Survey& survey, const StepLine& line) {
@@ -122,42 +26,6 @@ double SeenShare(const Survey& survey, const StepLine& line) {
             FallsDeeper(map, station, row, kDeep * map.background_response);
   }
   return static_cast<double>(seen) / map.stations;
-}
-
-// The next line further out, where it is about as clear and as high: what lies outside a silhouette
-// is not.
-StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px) {
-  constexpr int kApart = 2;                          // px; nearer lines are the same
-  constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
-  const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
-  const StepLine outer =
-      FindBestLine(survey.map,
-                   Scores(survey,
-                          [&](int station, int row) {
-                            const int outwards = row - line.rows[Index(station)];
-                            if (outwards <= kApart || outwards > widest) return kForbidden;
-                            if (std::abs(survey.FromGuess(station, row)) > search_px)
-                              return kForbidden;
-                            if (FallsDeeper(survey.map, station, row, height)) return 1.0F;
-                            return survey.map.clear[survey.map.At(station, row)];
-                          }),
-                   kStiffBend);
-  const bool clear = outer.score > kAsClear * line.score;
-  const bool high = std::abs(HeightUnder(survey.map, outer)) > kAsHigh * std::abs(height);
-  return clear && high ? outer : line;
-}
-
-// A dark band between bright metal and a bright background is the bevel where it is narrow; where
-// it is wide, and a sharp step bounds it on the blade's side as well, it is a hard shadow and the
-// border is that inner step.
-StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double search_px) {
-  constexpr double kSeen = 0.6, kHigh = 0.5;  // of the outer border's share and height
-  const double height = TypicalHeight(survey.map, line);
-  if (height <= 0) return line;
-  const int apart = static_cast<int>(std::lround(WidestBevel(survey)));
-  const StepLine inner = LineWithin(survey, line, apart, search_px, -1);
-  const bool seen = ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line);
-  return seen && -TypicalHeight(survey.map, inner) > kHigh * height ? inner : line;
 }
 
 // Distance from the line to the next clear step, going by `toward`.
@@ -232,35 +100,10 @@ void CompareWithRival(const Survey& survey,
       std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0) * std::min(as_high, 1.0);
 }
 
-struct Surveyed {
-  Survey survey;
-  StepLine line;
-};
-
-// Where noise hides the steps, averaging over more of the guess, however it wanders, may show them.
-Surveyed ClearerSurvey(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  constexpr double kWellSeen = 0.6;
-  constexpr double kMuchMore = 1.3;  // times as much seen; a longer mean shows a little more of any
-  Surveyed usual{SurveyStraightened(grey, guess, search_px), {}};
-  usual.line = OutermostLine(usual.survey, search_px);
-  const double seen = ClearShare(usual.survey.map, usual.line);
-  if (seen > kWellSeen) return usual;
-  Surveyed averaged{SurveyGuess(grey, guess, search_px), {}};
-  averaged.line = OutermostLine(averaged.survey, search_px);
-  return ClearShare(averaged.survey.map, averaged.line) > kMuchMore * seen ? averaged : usual;
-}
-
-Surveyed SurveyAndLine(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  Surveyed surveyed = ClearerSurvey(grey, guess, search_px);
-  surveyed.line = OuterMatch(surveyed.survey, surveyed.line, search_px);
-  surveyed.line = WithoutHardShadow(surveyed.survey, surveyed.line, search_px);
-  return surveyed;
-}
-
 }  // namespace
 
 ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  const auto [survey, line] = SurveyAndLine(grey, guess, search_px);
+  const auto [survey, line] = FindBorder(grey, guess, search_px);
   ChosenTransition chosen;
   // Sharper steps than a fall of light at the border are drawn or engraved, not photographed; where
   // it gets brighter outwards the border may lie in a shadow, which would soften it.

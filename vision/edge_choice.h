@@ -14,10 +14,11 @@ struct ChosenTransition {
   std::vector<Eigen::Vector2d> points;  // along it, one to a few px apart
   std::vector<double> inner_px;         // from each point to the next transition within the blade
   std::vector<double> outer_px;  // the same in the background; kNoTransition where there is none
-  double blur_px = 0;            // of the sharper transitions, good to a third
-  double support = 0;            // share of the path along which the transition is seen, 0 to 1
-  double ambiguity = 0;          // 0: no other line comes near; 1: another one is as good
-  double rival_px = 0;           // where that other line lies, positive out of the blade
+  double blur_px = 0;    // of the sharper transitions, good to a third; up to 2 px more where
+                         // noise hides them: the fit mends a blur too wide, not one too narrow
+  double support = 0;    // share of the path along which the transition is seen, 0 to 1
+  double ambiguity = 0;  // 0: no other line comes near; 1: another one is as good
+  double rival_px = 0;   // where that other line lies, positive out of the blade
   std::vector<Eigen::Vector2d> rival;  // the other line
 };
 
