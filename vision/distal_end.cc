@@ -129,8 +129,10 @@ DistalEnd FindDistalEnd(const cv::Mat& grey,
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   if (cap && cap->scatter_px < kClearArc) {
     // The arc's start is known to a few tenths of its radius: real tips are not quite round.
-    return EndAtCap(
-        edge, *cap, std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px)));
+    DistalEnd end =
+        EndAtCap(edge, *cap, std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px)));
+    end.arc_seen = true;
+    return end;
   }
   const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
   const TipCap usual = UsualTipCap(edge, search.tip);

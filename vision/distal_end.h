@@ -17,6 +17,7 @@ struct DistalEnd {
   std::size_t index =
       0;  // first point of the edge that belongs to the tip; the size of the edge if none does
   double along_sigma_px = 0;  // standard uncertainty along the edge
+  bool arc_seen = false;      // the tip's arc is seen to leave the edge there
 };
 
 struct EndSearch {

@@ -48,9 +48,15 @@ void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
       photo.grey(),
       points,
       {{seen.tip_px, reach_px, seen.width_px, blade->on_left}, MedianSigma(blade->edge.points)});
+  KeepFree(scene, blade);
+}
+
+void KeepFree(const Scene& scene, LocatedBlade* blade) {
+  const std::vector<Vector2d> points = InlierPoints(blade->edge);
   const double clear = ClearOfCrossing(blade->edge);
   const double smeared = SmearedByTip(points);
   std::size_t index = 0;
+  blade->used.clear();
   for (const LocatedEdgePoint& p : blade->edge.points) {
     if (!p.inlier) continue;
     if (index++ >= blade->end.index) break;

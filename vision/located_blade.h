@@ -23,11 +23,15 @@ struct LocatedBlade {
 // Both blades of a pair, trimmed.
 struct Blades {
   LocatedBlade upper, lower;
+  bool ends_contradict = false;  // one lies further from the pivot than the other, beyond doubt
 };
 
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
 // near, and that end. Throws Refused{kEdgeTooShort}.
 void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade);
+
+// The same for an end that is known. Throws Refused{kEdgeTooShort}.
+void KeepFree(const Scene& scene, LocatedBlade* blade);
 
 // Of the distal end: across the edge like a point of it, along the edge as found. px^2.
 [[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade);

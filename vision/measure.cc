@@ -10,6 +10,7 @@
 #include "vision/consistency.h"
 #include "vision/edge_debug.h"
 #include "vision/edge_pair.h"
+#include "vision/end_pair.h"
 #include "vision/located_blade.h"
 #include "vision/opening.h"
 #include "vision/parallel.h"
@@ -101,8 +102,7 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
 void CollectWarnings(const Scene& scene,
                      const PlaneMap& map,
                      const Pivot& pivot,
-                     const LocatedBlade& upper,
-                     const LocatedBlade& lower,
+                     const Blades& blades,
                      std::vector<std::string>* warnings) {
   constexpr double kSeveralTransitions = 0.5;
   constexpr double kSlanted = 0.1;
@@ -110,8 +110,11 @@ void CollectWarnings(const Scene& scene,
   warnings->insert(warnings->end(), map.warnings().begin(), map.warnings().end());
   if (pivot.source == "geometry") warnings->push_back("pivot_not_seen");
   if (std::abs(pivot.asymmetry) > kSlanted) warnings->push_back("blades_asymmetric");
-  if (upper.edge.ambiguity > kSeveralTransitions) warnings->push_back("upper_edge_ambiguous");
-  if (lower.edge.ambiguity > kSeveralTransitions) warnings->push_back("lower_edge_ambiguous");
+  if (blades.ends_contradict) warnings->push_back("ends_unlike");
+  if (blades.upper.edge.ambiguity > kSeveralTransitions)
+    warnings->push_back("upper_edge_ambiguous");
+  if (blades.lower.edge.ambiguity > kSeveralTransitions)
+    warnings->push_back("lower_edge_ambiguous");
 }
 
 Blades LocateAndTrim(const Photo& photo,
@@ -125,7 +128,8 @@ Blades LocateAndTrim(const Photo& photo,
     log->Picture("edge-lower", DrawEdge(photo.grey(), edges.lower));
   }
   Blades blades{{upper_on_left, std::move(edges.upper), {}, {}},
-                {!upper_on_left, std::move(edges.lower), {}, {}}};
+                {!upper_on_left, std::move(edges.lower), {}, {}},
+                false};
   TrimToFree(photo, scene, &blades.upper);
   TrimToFree(photo, scene, &blades.lower);
   log->Ran("edges", "full resolution along the blades only");
@@ -221,6 +225,8 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   const Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   DoubtUnlikeEdges(pivot, &parts.blades);
+  AgreeOnEnds(scale, pivot, &parts.blades);
+  for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) KeepFree(scene, blade);
   const Blades& blades = parts.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
@@ -238,7 +244,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.edges.photo = result.file;
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
-  CollectWarnings(scene, map, pivot, blades.upper, blades.lower, &result.warnings);
+  CollectWarnings(scene, map, pivot, blades, &result.warnings);
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/end_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLength = 300;  // px, pivot to tips
+constexpr double kHalfTheta = 0.3;
+constexpr double kExact = 1e-9;  // px: rounding
+
+Pivot PivotSeen() {
+  Pivot pivot;
+  pivot.point_px = {400, 350};
+  pivot.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
+  return pivot;
+}
+
+// A straight edge on a ray from the pivot, its end found `end_px` from there.
+LocatedBlade BladeOnRay(bool on_left, double end_px, double sigma_px, bool arc_seen) {
+  const double angle = (on_left ? -1 : 1) * kHalfTheta;
+  const Vector2d along(std::cos(angle), std::sin(angle));
+  LocatedBlade blade;
+  blade.on_left = on_left;
+  for (double at = 60; at < kLength; at += 1) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = PivotSeen().point_px + at * along;
+    point.normal = {along.y(), -along.x()};
+    blade.edge.points.push_back(point);
+  }
+  blade.used = blade.edge.points;
+  blade.end.point_px = PivotSeen().point_px + end_px * along;
+  blade.end.along_sigma_px = sigma_px;
+  blade.end.arc_seen = arc_seen;
+  return blade;
+}
+
+double LengthOf(const LocatedBlade& blade) {
+  return (blade.end.point_px - PivotSeen().point_px).norm();
+}
+
+ScaleResult WithMarkers() {
+  ScaleResult scale;
+  scale.map = PlaneMap::Uniform(0.1, 0, "marker");
+  scale.sheet.emplace();
+  return scale;
+}
+
+ScaleResult WithoutMarkers() {
+  ScaleResult scale;
+  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+  return scale;
+}
+
+// Against the joint normal distribution of both lengths. The opening angle takes the sum of the
+// ends' errors, so it is their sum's uncertainty that must be right.
+TEST(AgreeOnEnds, WeighsTheTwoLengthsByTheirUncertainties) {
+  constexpr double kClear = 1, kVague = 10, kMade = 0.005 * kLength;  // px
+  Blades blades{BladeOnRay(true, kLength + 9, kVague, false),
+                BladeOnRay(false, kLength, kClear, true)};
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  Eigen::Matrix2d precision;
+  const double like = 1 / (kMade * kMade);
+  precision << 1 / (kVague * kVague) + like, -like, -like, 1 / (kClear * kClear) + like;
+  const Vector2d right((kLength + 9) / (kVague * kVague), kLength / (kClear * kClear));
+  const Eigen::Matrix2d covariance = precision.inverse();
+  const Vector2d expected = covariance * right;
+  constexpr double kClose = 0.05;  // px; the pivot's own uncertainty
+  EXPECT_NEAR(LengthOf(blades.upper), expected[0], kClose);
+  EXPECT_NEAR(LengthOf(blades.lower), expected[1], kClose);
+  const double sum = std::hypot(blades.upper.end.along_sigma_px, blades.lower.end.along_sigma_px);
+  EXPECT_NEAR(sum, std::sqrt(covariance.sum()), kClose);
+}
+
+TEST(AgreeOnEnds, LeavesFreelyPhotographedBladesTheirLengths) {
+  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, 0.92 * kLength, 1, true)};
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_EQ(blades.lower.end.along_sigma_px, 1);
+  EXPECT_FALSE(blades.ends_contradict);
+}
+
+TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
+  for (const bool upper_seen : {false, true}) {
+    Blades blades{BladeOnRay(true, upper_seen ? kLength : kLength - 40, 1, upper_seen),
+                  BladeOnRay(false, upper_seen ? kLength - 40 : kLength, 1, !upper_seen)};
+    AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+    EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact) << upper_seen;
+    EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact) << upper_seen;
+    const LocatedBlade& moved = upper_seen ? blades.lower : blades.upper;
+    EXPECT_EQ(moved.end.index, moved.edge.points.size()) << "all points lie before the end";
+    EXPECT_GT(moved.end.along_sigma_px, 3) << "it is not seen there";
+  }
+}
+
+TEST(AgreeOnEnds, DoubtsEndsThatContradictEachOther) {
+  constexpr double kGap = 80;  // px
+  const auto apart = [] {
+    return Blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, kLength - kGap, 1, true)};
+  };
+  Blades level = apart(), slanted = apart();
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &level);
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &slanted);
+  EXPECT_TRUE(level.ends_contradict);
+  EXPECT_TRUE(slanted.ends_contradict);
+  EXPECT_NEAR(LengthOf(level.upper), kLength, kExact);
+  EXPECT_GT(level.upper.end.along_sigma_px, 0.4 * kGap);
+  EXPECT_GT(level.lower.end.along_sigma_px, 0.4 * kGap);
+}
+
+}  // namespace
+}  // namespace bladecurve
