@@ -59,17 +59,19 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseUnknownPivot(pivot, blades);
 }
 
+// Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
+// there no other transition accounts for it.
+bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
+bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
+
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
-  // Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
-  // there no other transition accounts for it.
-  constexpr double kUnlike = 0.018, kAlike = 0.014;
   constexpr double kDoubt = 0.75, kShare = 0.6;  // ambiguity; sigma, of the way to the other one
-  if (pivot.source == "geometry" || std::abs(pivot.asymmetry) < kUnlike) return;
+  if (pivot.source == "geometry" || !AreUnlike(pivot.asymmetry)) return;
   const double length_px = BladeLength(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
-    if (std::abs(pivot.asymmetry + moved) > kAlike) continue;
+    if (!AreAlike(pivot.asymmetry + moved)) continue;
     edge.ambiguity = std::max(edge.ambiguity, kDoubt);
     edge.common_sigma_px = std::hypot(edge.common_sigma_px, kShare * edge.rival_px);
   }

@@ -12,6 +12,11 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
+// Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
+// doubt, or as nearly alike as those of rendered scissors. Between the two nothing is said.
+[[nodiscard]] bool AreUnlike(double asymmetry);
+[[nodiscard]] bool AreAlike(double asymmetry);
+
 // Blades mirror each other. Where the edges do not, and would if the other transition beside one of
 // them were its border, that may well be so (a bright bevel on a bright ground): such an edge
 // becomes ambiguous, and less certain by 0.6 of the way to the other transition.

@@ -13,7 +13,7 @@ namespace bladecurve {
 
 // Where a cutting edge begins to round off into the tip.
 struct DistalEnd {
-  Eigen::Vector2d point_px;
+  Eigen::Vector2d point_px = Eigen::Vector2d::Zero();
   std::size_t index =
       0;  // first point of the edge that belongs to the tip; the size of the edge if none does
   double along_sigma_px = 0;  // standard uncertainty along the edge

@@ -188,4 +188,10 @@ BladeEdges LocateBlades(const Photo& photo,
   return edges;
 }
 
+LocatedEdge LocateBladeAlong(const Photo& photo, const ScaleResult& scale, const EdgeGuess& guess) {
+  EdgeOptions options;
+  options.most_blur_px = MostBlur(scale.markers);
+  return LocateEdge(photo.grey(), scale.tone, guess, options);
+}
+
 }  // namespace bladecurve

@@ -22,4 +22,9 @@ struct BladeEdges {
                                       const Scene& scene,
                                       bool upper_on_left);
 
+// The cutting edge along `guess`, as LocateBlades locates one. Throws Refused as LocateEdge does.
+[[nodiscard]] LocatedEdge LocateBladeAlong(const Photo& photo,
+                                           const ScaleResult& scale,
+                                           const EdgeGuess& guess);
+
 }  // namespace bladecurve

@@ -10,6 +10,7 @@
 #include "vision/consistency.h"
 #include "vision/edge_debug.h"
 #include "vision/edge_pair.h"
+#include "vision/edge_relocation.h"
 #include "vision/end_pair.h"
 #include "vision/located_blade.h"
 #include "vision/opening.h"
@@ -223,7 +224,8 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const Scene scene = FindScene(photo, scale.markers, hints, &log);
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
-  const Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
+  Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
+  RelocateUnlikeEdges({photo, scale, scene}, &pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
   for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) KeepFree(scene, blade);

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge_relocation.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "process_folder.h"
+#include "vision/edge_pair.h"
+#include "vision/pivot_geometry.h"
+#include "vision/png_writer.h"
+#include "vision/render.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kMarkerMm = 25;
+constexpr bool kUpperOnLeft = true;  // the scene's tips lie to the right
+
+SceneSpec SceneWithMarkers() {
+  SceneSpec spec;
+  spec.width = 1200;
+  spec.height = 900;
+  spec.camera.mm_per_px = 0.25;
+  spec.camera.tilt_rad = 0.15;
+  for (int k = 0; k < 4; ++k) {
+    const Vector2d corner((k % 2 == 0 ? -1 : 1) * 120, (k < 2 ? -1 : 1) * 85);
+    spec.markers.push_back({k, kMarkerMm, corner, 0.1, 5});
+  }
+  return spec;
+}
+
+// A rendered photograph up to where the edges are compared.
+struct Measured {
+  explicit Measured(const SceneSpec& spec)
+      : truth(TruthOf(spec)), photo(PhotoOf(spec)), scale(FindScale(photo, ScaleOf(spec))) {
+    StageLog log;
+    scene = FindScene(photo, scale.markers, {}, &log);
+    BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    blades = {{kUpperOnLeft, edges.upper, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}}, false};
+    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
+    pivot.point_px = truth.pivot_px;
+    pivot.covariance_px2.setIdentity();
+    pivot.source = "screw";
+    Compare();
+  }
+
+  void Compare() {
+    pivot.asymmetry =
+        EdgeAsymmetry({PointsOf(blades.upper), PointsOf(blades.lower)}, pivot.point_px);
+  }
+
+  // As if the edge had been taken for a faint line of the background.
+  void Misplace(LocatedBlade* blade, double outwards_px) {
+    constexpr double kFaint = 0.01;
+    for (LocatedEdgePoint& p : blade->edge.points) {
+      const Vector2d shift = outwards_px * p.normal;
+      p.point_px += shift;
+      p.trend_px += shift;
+      p.contrast = kFaint;
+    }
+    KeepFree(scene, blade);
+    Compare();
+  }
+
+  void Relocate() { RelocateUnlikeEdges({photo, scale, scene}, &pivot, &blades); }
+
+  static Photo PhotoOf(const SceneSpec& spec) {
+    const std::filesystem::path file = ProcessFolder() / "picture.png";
+    WritePng(file, RenderScene(spec).bgr);
+    return Photo::Load(file);
+  }
+  static ScaleOptions ScaleOf(const SceneSpec& spec) {
+    ScaleOptions options;
+    options.marker_mm = kMarkerMm;
+    options.plane_height_mm = spec.edge_height_mm;
+    return options;
+  }
+
+  SceneTruth truth;
+  Photo photo;
+  ScaleResult scale;
+  Scene scene;
+  Blades blades;
+  Pivot pivot;
+};
+
+// Median distance of the points used from the true edge, px.
+double FarFrom(const EdgeTruth& truth, const LocatedBlade& blade) {
+  std::vector<double> off;
+  for (const LocatedEdgePoint& p : blade.used) {
+    double nearest = 1e9;
+    for (const Vector2d& q : truth.px)
+      nearest = std::min(nearest,
+                         std::abs(p.normal.dot(p.point_px - q)) + 0.01 * (p.point_px - q).norm());
+    off.push_back(nearest);
+  }
+  std::nth_element(
+      off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2];
+}
+
+TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
+  constexpr double kAsidePx = 16, kClosePx = 0.3, kAlike = 0.01;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
+    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    measured.Misplace(&misplaced, kAsidePx);
+    ASSERT_GT(FarFrom(truth, misplaced), 0.9 * kAsidePx);
+    measured.Relocate();
+    EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper), kClosePx) << upper;
+    EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower), kClosePx) << upper;
+    EXPECT_LT(std::abs(measured.pivot.asymmetry), kAlike) << upper;
+  }
+}
+
+TEST(RelocateUnlikeEdges, LeavesEdgesThatMirrorEachOther) {
+  Measured measured{SceneWithMarkers()};
+  const std::vector<Vector2d> before = PointsOf(measured.blades.upper);
+  measured.Relocate();
+  EXPECT_EQ(PointsOf(measured.blades.upper), before);
+}
+
+// Without markers nobody knows from where the scissors are seen.
+TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
+  Measured measured{SceneWithMarkers()};
+  measured.Misplace(&measured.blades.upper, 16);
+  measured.scale.sheet.reset();
+  const std::vector<Vector2d> before = PointsOf(measured.blades.upper);
+  measured.Relocate();
+  EXPECT_EQ(PointsOf(measured.blades.upper), before);
+}
+
+}  // namespace
+}  // namespace bladecurve
