@@ -9,122 +9,25 @@
 #include <stdexcept>
 
 #include "vision/refused.h"
+#include "vision/sheet_model.h"
 
 namespace bladecurve {
 namespace {
+
+using sheet::Base;
+using sheet::Corners;
+using sheet::kK1;
+using sheet::kLogFocal;
+using sheet::kPlace;
+using sheet::kSpread;
+using sheet::kSquares;
+using sheet::kTurn;
 
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-using Corners = std::array<Vector2d, 4>;
-
-// Unknowns: the camera's, the pose's, the spread, then x, y and angle of each square that lies
-// anywhere but the first, which carries the sheet frame.
-enum Unknown : int { kLogFocal, kK1, kTurn, kPlace = 5, kSpread = 8, kSquares };
-
-Corners SquareCorners(double side_mm) {
-  const double h = 0.5 * side_mm;
-  return {Vector2d(-h, h), Vector2d(h, h), Vector2d(h, -h), Vector2d(-h, -h)};
-}
-
-Vector2d Centre(const Corners& c) { return 0.25 * (c[0] + c[1] + c[2] + c[3]); }
-
-Matrix3d Rotation(const Vector3d& turn) {
-  const double angle = turn.norm();
-  if (angle < 1e-12) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-}
-
-// What the unknowns are measured from. Turns are kept small, relative to a base pose.
-struct Base {
-  const SheetProblem& problem;
-  Matrix3d rotation;
-};
-
-bool LiesAnywhere(const SheetProblem& problem) { return !problem.squares.front().corners_mm; }
-
-SheetPose PoseOf(const Base& base, const VectorXd& x) {
-  SheetPose pose;
-  pose.camera = base.problem.knowledge.camera;
-  pose.camera.k(0, 0) *= std::exp(x[kLogFocal]);
-  pose.camera.k(1, 1) *= std::exp(x[kLogFocal]);
-  pose.camera.distortion[0] += x[kK1];
-  pose.camera_from_sheet = Rotation(x.segment<3>(kTurn)) * base.rotation;
-  // A longer focal length sees the same from further away; measured so, the two are nearly
-  // independent.
-  pose.sheet_in_camera_mm = std::exp(x[kLogFocal]) * x.segment<3>(kPlace);
-  return pose;
-}
-
-Vector2d Project(const SheetPose& pose, const Vector2d& sheet_mm) {
-  const Vector3d point = pose.camera_from_sheet.leftCols<2>() * sheet_mm + pose.sheet_in_camera_mm;
-  return Distorted(pose.camera, (pose.camera.k * point).hnormalized());
-}
-
-Corners CornersMm(const Base& base, const VectorXd& x, size_t square) {
-  const auto& known = base.problem.squares[square].corners_mm;
-  Corners corners = known ? *known : SquareCorners(base.problem.side_mm);
-  const Vector2d centre = Centre(corners);
-  const double growth = 1 + 2 * x[kSpread] / base.problem.side_mm;
-  for (Vector2d& corner : corners) corner = centre + growth * (corner - centre);
-  if (known || square == 0) return corners;
-  const Vector3d placed = x.segment<3>(kSquares + 3 * (static_cast<int>(square) - 1));
-  const Eigen::Rotation2Dd turn(placed.z());
-  for (Vector2d& corner : corners) corner = turn * corner + placed.head<2>();
-  return corners;
-}
-
-// Standard deviations of what is known beforehand; NaN where nothing is.
-VectorXd PriorSigmas(const SheetProblem& problem, int unknowns) {
-  VectorXd sigmas = VectorXd::Constant(unknowns, std::nan(""));
-  sigmas[kLogFocal] = problem.knowledge.log_focal_sigma;
-  sigmas[kK1] = problem.knowledge.k1_sigma;
-  sigmas[kSpread] = LiesAnywhere(problem) ? 0 : problem.spread_sigma_mm;
-  return sigmas;
-}
-
-// Whitened residuals: eight a square, then the deviations from what is known beforehand.
-VectorXd Residuals(const Base& base, const VectorXd& x) {
-  const SheetPose pose = PoseOf(base, x);
-  const std::vector<SquareObservation>& squares = base.problem.squares;
-  const VectorXd sigmas = PriorSigmas(base.problem, static_cast<int>(x.size()));
-  VectorXd residuals(static_cast<long>(8 * squares.size()) + kSquares);
-  long row = 0;
-  for (size_t i = 0; i < squares.size(); ++i) {
-    const Corners corners = CornersMm(base, x, i);
-    for (size_t k = 0; k < 4; ++k, row += 2) {
-      residuals.segment<2>(row) =
-          (Project(pose, corners[k]) - squares[i].corners_px[k]) / squares[i].sigma_px;
-    }
-  }
-  for (int i = 0; i < kSquares; ++i) residuals[row++] = sigmas[i] > 0 ? x[i] / sigmas[i] : 0;
-  return residuals;
-}
-
-std::vector<int> FreeUnknowns(const SheetProblem& problem, int unknowns) {
-  const VectorXd sigmas = PriorSigmas(problem, unknowns);
-  std::vector<int> free;
-  for (int i = 0; i < unknowns; ++i) {
-    if (sigmas[i] != 0) free.push_back(i);
-  }
-  return free;
-}
-
-MatrixXd Jacobian(const Base& base, const VectorXd& x, const std::vector<int>& free) {
-  MatrixXd jacobian(static_cast<long>(8 * base.problem.squares.size()) + kSquares,
-                    static_cast<long>(free.size()));
-  for (size_t c = 0; c < free.size(); ++c) {
-    const double step = 1e-6 * std::max(1.0, std::abs(x[free[c]]));
-    VectorXd plus = x, minus = x;
-    plus[free[c]] += step;
-    minus[free[c]] -= step;
-    jacobian.col(static_cast<long>(c)) =
-        (Residuals(base, plus) - Residuals(base, minus)) / (2 * step);
-  }
-  return jacobian;
-}
 
 struct Minimum {
   Base base;
@@ -136,17 +39,18 @@ struct Minimum {
 Minimum Minimise(Minimum at, const std::vector<int>& free) {
   constexpr int kMaxSteps = 60;
   double damping = 1e-3;
-  at.cost = Residuals(at.base, at.x).squaredNorm();
+  at.cost = sheet::Residuals(at.base, at.x).squaredNorm();
   for (int step = 0; step < kMaxSteps && damping < 1e9; ++step) {
-    const MatrixXd jacobian = Jacobian(at.base, at.x, free);
+    const MatrixXd jacobian = sheet::Jacobian(at.base, at.x, free);
     MatrixXd normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1 + damping;
-    const VectorXd change = normal.ldlt().solve(-jacobian.transpose() * Residuals(at.base, at.x));
+    const VectorXd change =
+        normal.ldlt().solve(-jacobian.transpose() * sheet::Residuals(at.base, at.x));
     Minimum next = at;
     for (size_t c = 0; c < free.size(); ++c) next.x[free[c]] += change[static_cast<long>(c)];
-    next.base.rotation = Rotation(next.x.segment<3>(kTurn)) * at.base.rotation;
+    next.base.rotation = sheet::Rotation(next.x.segment<3>(kTurn)) * at.base.rotation;
     next.x.segment<3>(kTurn).setZero();
-    next.cost = Residuals(next.base, next.x).squaredNorm();
+    next.cost = sheet::Residuals(next.base, next.x).squaredNorm();
     if (!(next.cost <= at.cost)) {
       damping *= 10;
       continue;
@@ -192,7 +96,8 @@ size_t LargestSquare(const std::vector<SquareObservation>& squares) {
 Matrix3d SheetHomography(const SheetProblem& problem) {
   std::vector<Vector2d> mm, px;
   for (const SquareObservation& square : problem.squares) {
-    const Corners corners = square.corners_mm ? *square.corners_mm : SquareCorners(problem.side_mm);
+    const Corners corners =
+        square.corners_mm ? *square.corners_mm : sheet::SquareCorners(problem.side_mm);
     for (size_t k = 0; k < 4; ++k) {
       mm.push_back(corners[k]);
       px.push_back(Undistorted(problem.knowledge.camera, square.corners_px[k]));
@@ -210,7 +115,8 @@ Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
   Matrix3d rotation;
   rotation << columns.col(0), columns.col(1), columns.col(0).cross(columns.col(1));
   const Eigen::JacobiSVD<Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const int others = LiesAnywhere(problem) ? static_cast<int>(problem.squares.size()) - 1 : 0;
+  const int others =
+      sheet::LiesAnywhere(problem) ? static_cast<int>(problem.squares.size()) - 1 : 0;
   Minimum start{{problem, svd.matrixU() * svd.matrixV().transpose()},
                 VectorXd::Zero(kSquares + 3 * others)};
   start.x.segment<3>(kPlace) = columns.col(2);
@@ -221,7 +127,7 @@ Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
       p = (sheet_from_image * Undistorted(problem.knowledge.camera, p).homogeneous()).hnormalized();
     }
     const Vector2d across = mm[1] - mm[0];
-    start.x.segment<3>(kSquares + 3 * i) << Centre(mm), std::atan2(across.y(), across.x());
+    start.x.segment<3>(kSquares + 3 * i) << sheet::Centre(mm), std::atan2(across.y(), across.x());
   }
   return start;
 }
@@ -239,7 +145,7 @@ Minimum TiltedTheOtherWay(const Minimum& minimum) {
 }
 
 void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSolution* solution) {
-  const MatrixXd jacobian = Jacobian(at.base, at.x, free);
+  const MatrixXd jacobian = sheet::Jacobian(at.base, at.x, free);
   const MatrixXd information = jacobian.transpose() * jacobian;
   const long count = static_cast<long>(free.size());
   const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(count, count));
@@ -256,7 +162,7 @@ void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSoluti
       plus[free[static_cast<size_t>(c)]] += length * axes.eigenvectors()(c, axis);
       minus[free[static_cast<size_t>(c)]] -= length * axes.eigenvectors()(c, axis);
     }
-    solution->shifted.emplace_back(PoseOf(at.base, plus), PoseOf(at.base, minus));
+    solution->shifted.emplace_back(sheet::PoseOf(at.base, plus), sheet::PoseOf(at.base, minus));
   }
   if (free.front() == kLogFocal) solution->log_focal_sigma = std::sqrt(covariance(0, 0));
 }
@@ -264,8 +170,8 @@ void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSoluti
 SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
   const std::vector<SquareObservation>& squares = best.base.problem.squares;
   SheetSolution solution;
-  solution.pose = PoseOf(best.base, best.x);
-  const VectorXd residuals = Residuals(best.base, best.x);
+  solution.pose = sheet::PoseOf(best.base, best.x);
+  const VectorXd residuals = sheet::Residuals(best.base, best.x);
   double square_px = 0;
   for (size_t i = 0; i < squares.size(); ++i) {
     const double sum = residuals.segment<8>(static_cast<long>(8 * i)).squaredNorm() *
@@ -274,7 +180,7 @@ SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
     square_px += sum;
   }
   const long corners = static_cast<long>(8 * squares.size());
-  const VectorXd priors = PriorSigmas(best.base.problem, static_cast<int>(best.x.size()));
+  const VectorXd priors = sheet::PriorSigmas(best.base.problem, static_cast<int>(best.x.size()));
   const long with_prior =
       std::count_if(free.begin(), free.end(), [&](int i) { return priors[i] > 0; });
   solution.surplus = static_cast<int>(corners - static_cast<long>(free.size()));
@@ -304,10 +210,10 @@ SheetSolution SolveSheet(const SheetProblem& given) {
   CheckProblem(given);
   SheetProblem problem = given;
   // The square that carries the sheet frame should be the one seen best.
-  const size_t frame = LiesAnywhere(problem) ? LargestSquare(problem.squares) : 0;
+  const size_t frame = sheet::LiesAnywhere(problem) ? LargestSquare(problem.squares) : 0;
   std::swap(problem.squares.front(), problem.squares[frame]);
   const Minimum start = StartFrom(problem, SheetHomography(problem));
-  const std::vector<int> free = FreeUnknowns(problem, static_cast<int>(start.x.size()));
+  const std::vector<int> free = sheet::FreeUnknowns(problem, static_cast<int>(start.x.size()));
   const Minimum one = Minimise(start, free);
   const Minimum other = Minimise(TiltedTheOtherWay(one), free);
   const Minimum& best = other.cost < one.cost ? other : one;
@@ -321,7 +227,7 @@ SheetSolution SolveSheet(const SheetProblem& given) {
   // The two tilts explain the corners about equally well: lengths are as uncertain as they differ.
   const Minimum& rival = &best == &one ? other : one;
   const double odds = std::exp(0.5 * (best.cost - rival.cost));
-  solution.rival = PoseOf(rival.base, rival.x);
+  solution.rival = sheet::PoseOf(rival.base, rival.x);
   solution.rival_share = odds / (1 + odds);
   return solution;
 }
