@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/blurred_step.h"
+#include "vision/square_fit.h"
 
 namespace bladecurve {
 namespace {
@@ -33,11 +34,9 @@ double ShortestSide(const Corners& corners) {
   return shortest;
 }
 
-using Sides = std::array<StraightEdge, 4>;
-
 // Rejects things that OpenCV takes for a marker and that are no black square with straight sides on
 // paper.
-bool LooksPrinted(const Sides& sides) {
+bool LooksPrinted(const SquareSides& sides) {
   constexpr double kMinUsed = 0.5;     // sides half covered say too little
   constexpr double kMaxUneven = 0.35;  // paper beside a marker is about equally bright on all sides
   double low = 1e9, high = 0;
@@ -95,19 +94,24 @@ MarkerCornerOptions NearlyWholeSides(const SeenMarker& marker, MarkerCornerOptio
   return options;
 }
 
-// Corners as LocateMarkerCorners has them, by the pieces of the sides that the options leave.
-SeenMarker CrossSides(const cv::Mat& grey,
-                      const ToneCurve& tone,
+// The sides by the pieces of them that the options leave.
+std::optional<SquareSides> LocateSides(const cv::Mat& grey,
+                                       const ToneCurve& tone,
+                                       const Corners& corners_px,
+                                       const MarkerCornerOptions& options) {
+  SquareSides sides;
+  for (int k = 0; k < 4; ++k) {
+    const auto side = LocateStraightEdge(grey, tone, MarkerSide(corners_px, k, options));
+    if (!side) return std::nullopt;
+    sides[static_cast<size_t>(k)] = *side;
+  }
+  return LooksPrinted(sides) ? std::optional(sides) : std::nullopt;
+}
+
+SeenMarker CrossSides(const SquareSides& sides,
                       const RoughMarker& rough,
                       const MarkerCornerOptions& options) {
   SeenMarker marker = Unlocated(rough);
-  Sides sides;
-  for (int k = 0; k < 4; ++k) {
-    const auto side = LocateStraightEdge(grey, tone, MarkerSide(rough.corners_px, k, options));
-    if (!side) return marker;
-    sides[static_cast<size_t>(k)] = *side;
-  }
-  if (!LooksPrinted(sides)) return marker;
   double variance = 0, blur = 0;
   for (size_t k = 0; k < 4; ++k) {
     const EdgeCrossing crossing = Cross(sides[(k + 3) % 4], sides[k]);
@@ -122,6 +126,20 @@ SeenMarker CrossSides(const cv::Mat& grey,
   marker.corner_sigma_px = std::sqrt(variance);
   marker.blur_px = blur;
   return marker;
+}
+
+// A small marker once more, by all that is seen of it; as it was where that fails.
+SeenMarker Sharpened(const cv::Mat& grey,
+                     const ToneCurve& tone,
+                     const SeenMarker& marker,
+                     const MarkerCornerOptions& rough_options) {
+  const MarkerCornerOptions options = NearlyWholeSides(marker, rough_options);
+  const auto sides = LocateSides(grey, tone, marker.corners_px, options);
+  if (!sides) return marker;
+  const double free_px = MarkerSide(marker.corners_px, 0, options).free_px;
+  const SquareSides fitted = FitSquare(grey, tone, *sides, free_px).value_or(*sides);
+  const SeenMarker again = CrossSides(fitted, {marker.id, marker.corners_px}, options);
+  return std::isfinite(again.corner_sigma_px) ? again : marker;
 }
 
 }  // namespace
@@ -149,12 +167,12 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const RoughMarker& rough,
                                const MarkerCornerOptions& options) {
-  const SeenMarker marker = CrossSides(grey, tone, rough, options);
-  if (!std::isfinite(marker.corner_sigma_px) || ShortestSide(marker.corners_px) > kSmallPx)
-    return marker;
-  const SeenMarker again =
-      CrossSides(grey, tone, {marker.id, marker.corners_px}, NearlyWholeSides(marker, options));
-  return std::isfinite(again.corner_sigma_px) ? again : marker;
+  const auto sides = LocateSides(grey, tone, rough.corners_px, options);
+  if (!sides) return Unlocated(rough);
+  const SeenMarker marker = CrossSides(*sides, rough, options);
+  const bool located = std::isfinite(marker.corner_sigma_px);
+  if (!located || ShortestSide(marker.corners_px) > kSmallPx) return marker;
+  return Sharpened(grey, tone, marker, options);
 }
 
 std::vector<SeenMarker> FindMarkers(const cv::Mat& grey,
