@@ -33,7 +33,7 @@ struct MirrorLine {
 
 // Halfway between the edges' directions: an edge that lies aside of its place runs much as it
 // should.
-MirrorLine MirrorOf(const PlaneMap& map, const Pivot& pivot, const Blades& blades) {
+MirrorLine LineBetween(const PlaneMap& map, const Pivot& pivot, const Blades& blades) {
   const auto direction = [&](const LocatedBlade& blade) {
     return (map.PlaneFromImage(blade.used.back().trend_px) -
             map.PlaneFromImage(blade.used.front().trend_px))
@@ -94,7 +94,7 @@ std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
 
 void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades) {
   if (pivot->source == "geometry" || !view.scale.sheet || !AreUnlike(pivot->asymmetry)) return;
-  const MirrorLine line = MirrorOf(*view.scale.map, *pivot, *blades);
+  const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
   std::optional<Relocated> upper =
       LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
   std::optional<Relocated> lower =

@@ -16,7 +16,8 @@ using Eigen::Vector2d;
 struct Reach {
   Vector2d along_px = Vector2d::Zero();  // unit, along the edge towards the tip
   double length = 0;
-  double per_px = 0;                         // growth of the length as the end moves along the edge
+  bool outwards = false;  // the edge runs away from the pivot at its end, as cutting edges do
+  double per_px = 0;      // growth of the length as the end moves along the edge
   Vector2d per_pivot_px = Vector2d::Zero();  // the same as the pivot moves
 
   [[nodiscard]] double Sigma(const LocatedBlade& blade) const {
@@ -39,6 +40,8 @@ Reach ReachOf(const PlaneMap& map, const Vector2d& pivot_px, const LocatedBlade&
   reach.along_px = DirectionAtEnd(blade);
   reach.length = length(pivot_px, end_px);
   reach.per_px = length(pivot_px, end_px + reach.along_px) - reach.length;
+  constexpr double kOutwards = 0.7;  // cosine; edges keep within 30 degrees of the ray to their end
+  reach.outwards = reach.per_px > kOutwards * length(end_px, end_px + reach.along_px);
   for (int k = 0; k < 2; ++k)
     reach.per_pivot_px[k] = length(pivot_px + Vector2d::Unit(k), end_px) - reach.length;
   return reach;
@@ -122,6 +125,7 @@ void DoubtBoth(const Comparison& both, Blades* blades) {
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   constexpr double kContradict = 3;  // standard uncertainties
   const Comparison both = Compare(scale, pivot, *blades);
+  if (!both.upper.outwards || !both.lower.outwards) return;
   blades->ends_contradict = std::abs(both.gap) > kContradict * std::sqrt(both.variance);
   if (!scale.sheet) return;
   if (!blades->ends_contradict) {

@@ -100,6 +100,15 @@ TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   }
 }
 
+TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
+  Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
+  Pivot beyond = PivotSeen();
+  beyond.point_px.x() += 2 * kLength;
+  AgreeOnEnds(WithMarkers(), beyond, &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength + 5, kExact);
+  EXPECT_EQ(blades.upper.end.along_sigma_px, 10);
+}
+
 TEST(AgreeOnEnds, DoubtsEndsThatContradictEachOther) {
   constexpr double kGap = 80;  // px
   const auto apart = [] {
