@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/screw.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -52,15 +53,29 @@ ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEl
   return window;
 }
 
+// Whether the scatter along the rim is far less and the centre no other. A rim that light or other
+// edges distort scatters alike whatever its grain, or has its centre moved by which places count;
+// there the plain fit, to which all count alike, errs less.
+bool Gains(const RimFit& in_grain, const RimFit& plain) {
+  constexpr double kFarLess = 0.8;  // of the variance
+  constexpr double kSame = 5.99;    // chi^2 of two coordinates, 95 %
+  const Eigen::Vector2d apart = in_grain.rim.center - plain.rim.center;
+  return in_grain.center_covariance.trace() < kFarLess * plain.center_covariance.trace() &&
+         apart.dot(plain.center_covariance.inverse() * apart) < kSame;
+}
+
 // The rim in linear light at full resolution; as judged where that fit leaves the place found.
 RimFit Refine(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged) {
   const ScaledWindow light = LightAround(grey, tone, judged.rim);
   const double radius = judged.rim.MeanRadius();
   const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
   // A view 11 degrees off the axis flattens a round head by 2 %.
-  const RimFitOptions options{half_px, half_px, true, true, 400, 8, 0.002, 0, 0.02};
+  RimFitOptions options{half_px, half_px, true, false, 400, 8, 0.002, 0, 0.02};
   std::optional<RimFit> fit = FitRim(light.grey, judged.rim.Into(light.origin, 1), options);
   if (!fit) return judged;
+  options.grain = true;
+  const std::optional<RimFit> in_grain = FitRim(light.grey, fit->rim, options);
+  if (in_grain && Gains(*in_grain, *fit)) fit = in_grain;
   fit->rim = fit->rim.OutOf(light.origin, 1);
   const Eigen::Vector2d axes = fit->rim.SemiAxes();
   const bool same_rim = (fit->rim.center - judged.rim.center).norm() < 0.1 * radius &&
