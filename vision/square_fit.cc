@@ -80,31 +80,19 @@ class SquareModel {
   // Light minus model and the model's derivatives. A saturated pixel says no more than that it is
   // bright.
   double Residual(const SquarePixel& pixel, Unknowns* gradient) const {
-    std::array<double, kSides> step{}, slope{}, along{}, softening{};
-    double inside = 1;
-    for (int k = 0; k < kSides; ++k) {
-      const auto i = static_cast<size_t>(k);
-      const FromSide from = Measure(sides_[i], pixel.place_px);
-      along[i] = from.along;
-      const double z = from.inwards / sigma_;
-      step[i] = 1;
-      if (z > kComplete) continue;
-      step[i] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-      slope[i] = std::exp(-0.5 * z * z) / (std::sqrt(2 * std::numbers::pi) * sigma_);
-      softening[i] = -slope[i] * z * at_[kBlur] / sigma_;
-      inside *= step[i];
-    }
+    const Steps steps = StepsAt(pixel.place_px);
+    const double inside = Product(steps.value, kSides);
     const Vector2d place = (pixel.place_px - middle_) * per_px_;
     const double lamp = 1 + at_[kLampX] * place.x() + at_[kLampY] * place.y();
     const double depth = at_[kInk] - at_[kPaper], light = at_[kPaper] + depth * inside;
     gradient->setZero();
     if (pixel.light >= 1 && lamp * light >= 1) return 0;
-    for (int k = 0; k < kSides; ++k) {
-      const auto i = static_cast<size_t>(k);
-      const double others = Others(step, i);
-      (*gradient)[2 * k] = -lamp * depth * others * slope[i];
-      (*gradient)[2 * k + 1] = (*gradient)[2 * k] * along[i];
-      (*gradient)[kBlur] += lamp * depth * others * softening[i];
+    for (size_t k = 0; k < kSides; ++k) {
+      const double rise = lamp * depth * Product(steps.value, k);
+      const auto offset = static_cast<Eigen::Index>(2 * k);
+      (*gradient)[offset] = -rise * steps.slope[k];
+      (*gradient)[offset + 1] = (*gradient)[offset] * steps.along[k];
+      (*gradient)[kBlur] += rise * steps.softening[k];
     }
     (*gradient)[kPaper] = lamp * (1 - inside);
     (*gradient)[kInk] = lamp * inside;
@@ -114,9 +102,30 @@ class SquareModel {
   }
 
  private:
-  static double Others(const std::array<double, kSides>& step, size_t without) {
+  // The step of each side at a place: 1 deep inside; per px of distance; per px of blur.
+  struct Steps {
+    std::array<double, kSides> value{}, slope{}, softening{}, along{};
+  };
+
+  [[nodiscard]] Steps StepsAt(const Vector2d& place_px) const {
+    Steps steps;
+    for (size_t k = 0; k < kSides; ++k) {
+      const FromSide from = Measure(sides_[k], place_px);
+      const double z = from.inwards / sigma_;
+      steps.along[k] = from.along;
+      steps.value[k] = 1;
+      if (z > kComplete) continue;
+      steps.value[k] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+      steps.slope[k] = std::exp(-0.5 * z * z) / (std::sqrt(2 * std::numbers::pi) * sigma_);
+      steps.softening[k] = -steps.slope[k] * z * at_[kBlur] / sigma_;
+    }
+    return steps;
+  }
+
+  // Of all values but one.
+  static double Product(const std::array<double, kSides>& values, size_t without) {
     double product = 1;
-    for (size_t i = 0; i < kSides; ++i) product *= i == without ? 1 : step[i];
+    for (size_t i = 0; i < kSides; ++i) product *= i == without ? 1 : values[i];
     return product;
   }
 
