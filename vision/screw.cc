@@ -57,7 +57,7 @@ ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEl
 // edges distort scatters alike whatever its grain, or has its centre moved by which places count;
 // there the plain fit, to which all count alike, errs less.
 bool Gains(const RimFit& in_grain, const RimFit& plain) {
-  constexpr double kFarLess = 0.8;  // of the variance
+  constexpr double kFarLess = 0.5;  // of the variance; light alone makes it less by a third
   constexpr double kSame = 5.99;    // chi^2 of two coordinates, 95 %
   const Eigen::Vector2d apart = in_grain.rim.center - plain.rim.center;
   return in_grain.center_covariance.trace() < kFarLess * plain.center_covariance.trace() &&
