@@ -115,6 +115,33 @@ DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double 
   return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
 }
 
+// How far before the presumed tip the edge is lost.
+double LostBeforeTip(const std::vector<Vector2d>& edge, const Vector2d& tip_px) {
+  const Vector2d along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+  return (tip_px - edge.back()).dot(along);
+}
+
+// The arc at the presumed tip. Where there is none and the edge is lost far before it, grain or a
+// shadow may have been taken for metal, and the tip be where the edge is lost.
+std::optional<TipCap> FindClearCap(const cv::Mat& grey,
+                                   const std::vector<Vector2d>& edge,
+                                   const TipSearch& presumed) {
+  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
+  constexpr double kFar = 0.05;    // of the edge's length; edges fade over the last few percent
+  constexpr double kCertainArc = 1;
+  constexpr int kCertainlySeen = 12;  // lines; so many do not end on an arc by chance
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, presumed);
+  if (cap && cap->scatter_px < kClearArc) return cap;
+  const double lost_px = LostBeforeTip(edge, presumed.tip_px);
+  if (lost_px < kFar * (edge.back() - edge.front()).norm()) return std::nullopt;
+  TipSearch nearer = presumed;
+  nearer.tip_px = edge.back();
+  const std::optional<TipCap> near = FitTipCap(grey, edge, nearer);
+  const bool certain = near && near->scatter_px < kCertainArc && near->seen >= kCertainlySeen &&
+                       (near->end_px - edge.back()).norm() < presumed.reach_px;
+  return certain ? near : std::nullopt;
+}
+
 }  // namespace
 
 DistalEnd FindDistalEnd(const cv::Mat& grey,
@@ -125,9 +152,8 @@ DistalEnd FindDistalEnd(const cv::Mat& grey,
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length};
   }
-  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
-  const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
-  if (cap && cap->scatter_px < kClearArc) {
+  const std::optional<TipCap> cap = FindClearCap(grey, edge, search.tip);
+  if (cap) {
     // The arc's start is known to a few tenths of its radius: real tips are not quite round.
     DistalEnd end =
         EndAtCap(edge, *cap, std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px)));
@@ -136,7 +162,9 @@ DistalEnd FindDistalEnd(const cv::Mat& grey,
   }
   const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
   const TipCap usual = UsualTipCap(edge, search.tip);
-  const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
+  const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
+  const double usual_sigma_px =
+      std::hypot(usual.radius_px, 0.5 * std::max(search.tip.reach_px, unseen_px));
   return bend.along_sigma_px < usual_sigma_px ? bend : EndAtCap(edge, usual, usual_sigma_px);
 }
 
