@@ -128,12 +128,14 @@ std::optional<TipCap> FindClearCap(const cv::Mat& grey,
                                    const TipSearch& presumed) {
   constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
   constexpr double kFar = 0.05;    // of the edge's length; edges fade over the last few percent
+  constexpr double kFarReach = 3;  // times how far the presumed tip may be off
   constexpr double kCertainArc = 1;
   constexpr int kCertainlySeen = 12;  // lines; so many do not end on an arc by chance
   const std::optional<TipCap> cap = FitTipCap(grey, edge, presumed);
   if (cap && cap->scatter_px < kClearArc) return cap;
   const double lost_px = LostBeforeTip(edge, presumed.tip_px);
   if (lost_px < kFar * (edge.back() - edge.front()).norm()) return std::nullopt;
+  if (lost_px < kFarReach * presumed.reach_px) return std::nullopt;
   TipSearch nearer = presumed;
   nearer.tip_px = edge.back();
   const std::optional<TipCap> near = FitTipCap(grey, edge, nearer);
@@ -162,10 +164,10 @@ DistalEnd FindDistalEnd(const cv::Mat& grey,
   }
   const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
   const TipCap usual = UsualTipCap(edge, search.tip);
+  const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
+  if (bend.along_sigma_px < usual_sigma_px) return bend;
   const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
-  const double usual_sigma_px =
-      std::hypot(usual.radius_px, 0.5 * std::max(search.tip.reach_px, unseen_px));
-  return bend.along_sigma_px < usual_sigma_px ? bend : EndAtCap(edge, usual, usual_sigma_px);
+  return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
 }
 
 }  // namespace bladecurve

@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/distal_end.h"
+
 namespace bladecurve {
 namespace {
 
@@ -69,6 +71,30 @@ TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
   const auto cap = FitTipCap(picture, EdgeAlong(kEdge), kSearch);
   ASSERT_TRUE(cap);
   EXPECT_NEAR(cap->end_px.x(), kTip - 6, kAlong);
+}
+
+// Grain of the ground behind the blade was taken for its tip.
+TEST(FindDistalEnd, LooksWhereTheEdgeIsLostFarBeforeThePresumedTip) {
+  constexpr double kRadius = 8, kAlong = 2.5;  // px
+  cv::Mat picture;
+  cv::copyMakeBorder(Blade(kRadius), picture, 0, 0, 0, 160, cv::BORDER_CONSTANT, cv::Scalar(200));
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip + 80;
+  const DistalEnd end = FindDistalEnd(picture, EdgeAlong(kEdge), search);
+  EXPECT_TRUE(end.arc_seen);
+  EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
+}
+
+// A blade whose own end shows no arc: nobody knows where it ends.
+TEST(FindDistalEnd, IsAsUncertainAsTheEdgeIsLostBeforeThePresumedTip) {
+  constexpr double kLost = 80;  // px
+  cv::Mat picture(160, 500, CV_8UC1, cv::Scalar(200));
+  picture.rowRange(0, static_cast<int>(kEdge)) = 80;  // a step that goes on and on
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip + kLost;
+  const DistalEnd end = FindDistalEnd(picture, EdgeAlong(kEdge), search);
+  EXPECT_FALSE(end.arc_seen);
+  EXPECT_GT(end.along_sigma_px, 0.4 * kLost);
 }
 
 }  // namespace
