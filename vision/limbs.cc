@@ -7,12 +7,12 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/cross.h"
+
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // Without its first part, where a shadow or the coarseness of the mask may fill the crotch.
 std::vector<Vector2d> ClearOfCrotch(const std::vector<Vector2d>& inner) {

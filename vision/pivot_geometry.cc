@@ -7,12 +7,12 @@
 #include <limits>
 #include <numbers>
 
+#include "vision/cross.h"
+
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 struct Chord {
   Vector2d point, direction;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/blades.h"
+#include "vision/cross.h"
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_ladder.h"
@@ -21,8 +22,6 @@ using Eigen::Vector2d;
 // Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
 // and more.
 constexpr double kAcceptedQuality = 0.45;
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // A line through the part of a traced edge that is clear of the crotch: point and unit direction.
 struct FittedLine {
