@@ -31,9 +31,10 @@ double ClearOfCrossing(const LocatedEdge& edge) {
   return 4 * blur + 2;
 }
 
-// Near the end the windows of the edge fit, 50 px long, reach round the tip and bend the edge. px.
+// Near the end the windows of the edge fit, 50 px long and of long edges twice that, reach round
+// the tip and bend the edge. px.
 double SmearedByTip(const std::vector<Vector2d>& points) {
-  constexpr double kSmearedPx = 28, kMostOfEdge = 0.08;
+  constexpr double kSmearedPx = 56, kMostOfEdge = 0.10;
   if (points.empty()) return 0;
   return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
 }
