@@ -8,6 +8,7 @@
 #include "samples/fit_summary.h"
 #include "samples/fitted_photo.h"
 #include "vision/overlay.h"
+#include "vision/scale.h"
 
 namespace bladecurve {
 
@@ -26,7 +27,7 @@ cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index) {
   overlay.theta_rad = fitted.theta_rad;
   overlay.theta_sigma_rad = fitted.theta_sigma_rad;
   overlay.unit_per_px = fitted.mm_per_px;
-  overlay.unit = photo.scale_source == "units-px" ? "px" : "mm";
+  overlay.unit = photo.scale_source == kPixelsSource ? "px" : "mm";
   overlay.title = StatusLine(analysis, std::filesystem::path(photo.file).filename().string());
   overlay.doubtful = Status(analysis) != "ok";
   return DrawOverlay(Photo::Load(photo.file), overlay);

@@ -75,7 +75,7 @@ Comparison Compare(const ScaleResult& scale, const Pivot& pivot, const Blades& b
   // Of the length. Blades are ground in pairs; but photographed freely one of them looks up to an
   // eighth shorter.
   constexpr double kMade = 0.005, kSeenAtASlant = 0.06;
-  const PlaneMap map = scale.map.value_or(PlaneMap::Uniform(1, 0, "pixels"));
+  const PlaneMap map = scale.map.value_or(PlaneMap::Uniform(1, 0, kPixelsSource));
   Comparison both;
   both.upper = ReachOf(map, pivot.point_px, blades.upper);
   both.lower = ReachOf(map, pivot.point_px, blades.lower);

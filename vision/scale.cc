@@ -51,7 +51,7 @@ PlaneMap FromDpi(double dpi, const std::string& source) {
 
 // The map that needs no marker, if the options or the file say one.
 std::optional<PlaneMap> UniformMap(const Photo& photo, const ScaleOptions& options) {
-  if (options.pixels) return PlaneMap::Uniform(1, 0, "pixels");
+  if (options.pixels) return PlaneMap::Uniform(1, 0, kPixelsSource);
   if (options.mm_per_px) return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px");
   if (options.dpi) return FromDpi(*options.dpi, "dpi");
   if (!photo.metadata().dpi) return std::nullopt;

@@ -36,6 +36,9 @@ struct ScaleOptions {
   bool pixels = false;                          // --units px: one "mm" is one pixel
 };
 
+// Source of a map that takes a pixel for a unit.
+inline constexpr const char* kPixelsSource = "pixels";
+
 // A printed marker seen in the picture: scene finding leaves it out.
 struct SeenMarker {
   int id = 0;
