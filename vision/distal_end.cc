@@ -26,7 +26,7 @@ struct ChordFrame {
 ChordFrame InChordFrame(const std::vector<Vector2d>& edge) {
   ChordFrame frame;
   const Vector2d origin = edge.front();
-  const Vector2d axis = (edge[edge.size() * 4 / 5] - origin).normalized();
+  const Vector2d axis = AlongChord(edge);
   const Vector2d normal(-axis.y(), axis.x());
   frame.length_px = (edge.back() - origin).dot(axis);
   for (const Vector2d& p : edge) {
@@ -109,7 +109,7 @@ DistalEnd FindBend(const std::vector<Vector2d>& edge, double sigma_px) {
 
 // Where the tip's arc leaves the edge.
 DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double along_sigma_px) {
-  const Vector2d along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+  const Vector2d along = AlongChord(edge);
   const auto beyond = std::find_if(
       edge.begin(), edge.end(), [&](const Vector2d& p) { return (p - cap.end_px).dot(along) > 0; });
   return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
@@ -117,8 +117,7 @@ DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double 
 
 // How far before the presumed tip the edge is lost.
 double LostBeforeTip(const std::vector<Vector2d>& edge, const Vector2d& tip_px) {
-  const Vector2d along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
-  return (tip_px - edge.back()).dot(along);
+  return (tip_px - edge.back()).dot(AlongChord(edge));
 }
 
 // The arc at the presumed tip. Where there is none and the edge is lost far before it, grain or a

@@ -13,8 +13,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kSurveyedPx = 10;  // seen beyond the search range
-
 size_t Index(int i) { return static_cast<size_t>(i); }
 
 // Highest clear step of each station.
@@ -148,21 +146,31 @@ double SeenShareOf(const SurveyedBorder& border) {
   return ClearShare(border.survey.map, border.line);
 }
 
-// The picture smoothed where the guess runs.
-cv::Mat SmoothedAbout(const cv::Mat& grey,
+EdgePath MovedBy(const Eigen::Vector2d& by, EdgePath path) {
+  for (Eigen::Vector2d& point : path.points) point += by;
+  return path;
+}
+
+// Surveys the picture smoothed, as far about the guess as a survey sees.
+Survey SurveySmoothed(const cv::Mat& grey,
                       const EdgePath& guess,
-                      double sigma_px,
-                      double reach_px) {
+                      double search_px,
+                      double sigma_px) {
   std::vector<cv::Point2f> points;
   for (const Eigen::Vector2d& p : guess.points)
     points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-  const int reach = static_cast<int>(std::ceil(reach_px + 4 * sigma_px));
+  // The line along which the survey straightens the picture may lie at the end of the search.
+  const int reach = static_cast<int>(std::ceil(2 * search_px + kBeyondSearchPx + 4 * sigma_px));
   cv::Rect box = cv::boundingRect(points);
   box = cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
         cv::Rect(0, 0, grey.cols, grey.rows);
-  cv::Mat smooth = grey.clone();
-  if (!box.empty()) cv::GaussianBlur(grey(box), smooth(box), cv::Size(0, 0), sigma_px);
-  return smooth;
+  if (box.empty()) return SurveyStraightened(grey, guess, search_px);
+  cv::Mat smooth;
+  cv::GaussianBlur(grey(box), smooth, cv::Size(0, 0), sigma_px);
+  const Eigen::Vector2d corner(box.x, box.y);
+  Survey survey = SurveyStraightened(smooth, MovedBy(-corner, guess), search_px);
+  survey.path = MovedBy(corner, std::move(survey.path));
+  return survey;
 }
 
 // In noise a line can be followed from peak to peak of it, and the picture straightened along that
@@ -180,10 +188,8 @@ std::optional<SurveyedBorder> BorderInNoise(const cv::Mat& grey,
   constexpr double kLeastSeen = 0.5;  // of the smoothed line; less is another one
   const double seen = SeenShareOf(usual);
   if (StandsOut(usual) > kClear || seen > kNearlyAll) return std::nullopt;
-  SurveyedBorder smoothed = WithOutermostLine(
-      SurveyStraightened(
-          SmoothedAbout(grey, guess, kSigmaPx, 2 * search_px + kSurveyedPx), guess, search_px),
-      search_px);
+  SurveyedBorder smoothed =
+      WithOutermostLine(SurveySmoothed(grey, guess, search_px, kSigmaPx), search_px);
   const bool helps = StandsOut(smoothed) > kStandsOut * StandsOut(usual) &&
                      SeenShareOf(smoothed) > std::max(kLeastSeen, seen);
   return helps ? std::optional(std::move(smoothed)) : std::nullopt;

@@ -10,10 +10,9 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kBackgroundPx = 10;  // seen beyond the search range, to know the background
-constexpr double kBladePx = 8;        // the same inwards
-constexpr int kThinning = 2;          // samples of the guess to one that the first look takes
-constexpr int kEnough = 500;          // samples that tell as much as more of them would
+constexpr double kBladePx = 8;       // seen beyond the search range inwards
+constexpr int kThinning = 2;         // samples of the guess to one that the first look takes
+constexpr int kEnough = 500;         // samples that tell as much as more of them would
 constexpr float kLooseBend = 0.25F;  // the guess wanders about the edge by a row every few stations
 
 size_t Index(int i) { return static_cast<size_t>(i); }
@@ -40,7 +39,7 @@ Survey Take(const cv::Mat& grey,
   survey.moved_px.resize(survey.path.points.size(),
                          survey.moved_px.empty() ? 0.0 : survey.moved_px.back());
   survey.band = StraightenBand(
-      grey, EncodedValues(), survey.path, search_px + kBladePx, search_px + kBackgroundPx);
+      grey, EncodedValues(), survey.path, search_px + kBladePx, search_px + kBeyondSearchPx);
   const int background_row = static_cast<int>(std::lround(search_px - survey.band.first_across_px));
   survey.map = FindSteps(survey.band, layout, background_row);
   return survey;

@@ -27,6 +27,9 @@ struct Survey {
   }
 };
 
+// How far a survey sees beyond the search range at most, px: enough to know the background.
+inline constexpr double kBeyondSearchPx = 10;
+
 inline constexpr float kForbidden = -1;  // score of a place where the edge cannot be
 
 // The score of every place of the survey's map, as FindBestLine takes it.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/bilinear.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -15,17 +16,6 @@ namespace {
 constexpr int kFewestProfiles = 24;
 constexpr double kTapPx = 0.5;                // spacing along a profile
 constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
-
-double Bilinear(const cv::Mat& picture, double x, double y) {
-  x = std::clamp(x, 0.0, picture.cols - 1.001);
-  y = std::clamp(y, 0.0, picture.rows - 1.001);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const double right = x - column, down = y - row;
-  const float* upper = picture.ptr<float>(row) + column;
-  const float* lower = picture.ptr<float>(row + 1) + column;
-  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
-         down * ((1 - right) * lower[0] + right * lower[1]);
-}
 
 Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
   const Eigen::ArrayXd relative = (t.array() / half_px).square();  // 0.2 at the ends
@@ -146,7 +136,7 @@ RimProfiles SampleProfiles(const cv::Mat& picture,
     const Eigen::Vector2d n = (inverse_shape * u).normalized(), p = rim.PointAt(u);
     for (int k = 0; k < taps; ++k) {
       const Eigen::Vector2d q = p + profiles.t[k] * n;
-      profiles.values(i, k) = Bilinear(picture, q.x(), q.y());
+      profiles.values(i, k) = Bilinear<float>(picture, q);
     }
     profiles.jacobian.row(i) << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(),
         n.y() * u.y();

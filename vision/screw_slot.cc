@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "vision/bilinear.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -44,15 +45,8 @@ class HeadFrame {
 
   // Linear light, bilinear; the picture's border repeats.
   [[nodiscard]] double Light(double along, double across) const {
-    const Vector2d at = Place(along, across);
-    const double x = std::clamp(at.x(), 0.0, grey_.cols - 1.001);
-    const double y = std::clamp(at.y(), 0.0, grey_.rows - 1.001);
-    const int column = static_cast<int>(x), row = static_cast<int>(y);
-    const double u = x - column, v = y - row;
-    const uchar* upper = grey_.ptr<uchar>(row) + column;
-    const uchar* lower = grey_.ptr<uchar>(std::min(row + 1, grey_.rows - 1)) + column;
-    return (1 - v) * ((1 - u) * tone_.linear[upper[0]] + u * tone_.linear[upper[1]]) +
-           v * ((1 - u) * tone_.linear[lower[0]] + u * tone_.linear[lower[1]]);
+    return Bilinear<uchar>(
+        grey_, Place(along, across), [this](uchar grey) { return tone_.linear[grey]; });
   }
 
  private:
@@ -157,12 +151,14 @@ SlotLine DarkestLine(const cv::Mat& grey,
   return darkest;
 }
 
+// Where along the slot the middle of a section lies.
+double SectionMiddle(int k) { return kReach * ((2 * k + 1.0) / kSections - 1); }
+
 std::vector<CrossProfile> Sections(const HeadFrame& head) {
   constexpr int kPlaces = 4;
   std::vector<CrossProfile> sections;
   for (int k = 0; k < kSections; ++k) {
-    const double middle = kReach * ((2 * k + 1.0) / kSections - 1);
-    sections.emplace_back(head, middle, kReach / kSections, kPlaces);
+    sections.emplace_back(head, SectionMiddle(k), kReach / kSections, kPlaces);
   }
   return sections;
 }
@@ -187,7 +183,7 @@ CentreLine LineThrough(const std::vector<CrossProfile>& sections, double across)
   double sum = 0, moment = 0, squares = 0;
   std::vector<double> centers;
   for (int k = 0; k < kSections; ++k) {
-    const double along = kReach * ((2 * k + 1.0) / kSections - 1);
+    const double along = SectionMiddle(k);
     centers.push_back(sections[static_cast<std::size_t>(k)].DarkCentre(across));
     sum += centers.back();
     moment += along * centers.back();
@@ -195,7 +191,7 @@ CentreLine LineThrough(const std::vector<CrossProfile>& sections, double across)
   }
   CentreLine line{sum / kSections, moment / squares, 0};
   for (int k = 0; k < kSections; ++k) {
-    const double along = kReach * ((2 * k + 1.0) / kSections - 1);
+    const double along = SectionMiddle(k);
     const double rest = centers[static_cast<std::size_t>(k)] - line.offset - line.slope * along;
     line.scatter += rest * rest / (kSections - 2);
   }

@@ -233,8 +233,8 @@ Unknowns StartFrom(const SquareSides& sides, const std::vector<SquarePixel>& pix
 
 // The sides are good to a tenth of a pixel before; a square that moves them further is none.
 bool Plausible(const Unknowns& at, const SquareSides& sides) {
-  constexpr double kMostPx = 0.5, kLeastBlurPx = 0.2, kMostBlurPx = 6;
-  bool near = at.allFinite() && at[kBlur] >= kLeastBlurPx && at[kBlur] <= kMostBlurPx;
+  constexpr double kMostPx = 0.5;
+  bool near = at.allFinite() && at[kBlur] >= kMinBlurPx && at[kBlur] <= kMaxBlurPx;
   for (int k = 0; k < kSides; ++k) {
     const double turned = std::abs(at[2 * k + 1]) * sides[static_cast<size_t>(k)].length_px / 2;
     near = near && std::abs(at[2 * k]) + turned < kMostPx;

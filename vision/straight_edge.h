@@ -10,6 +10,11 @@
 
 namespace bladecurve {
 
+// Of straight edges that are believed.
+inline constexpr double kMinBlurPx =
+    0.2;  // sharper than any lens and pixel; below, the blur has no effect left
+inline constexpr double kMaxBlurPx = 6;  // rejects shadows and gradients
+
 // Where a straight edge between a dark and a bright area runs, to within search_px.
 struct StraightEdgeGuess {
   Eigen::Vector2d from_px, to_px;  // ends of the piece to use

@@ -18,10 +18,6 @@ inline constexpr int kStraightParameters = 6;
 using StraightVector = Eigen::Matrix<double, kStraightParameters, 1>;
 using StraightMatrix = Eigen::Matrix<double, kStraightParameters, kStraightParameters>;
 
-inline constexpr double kMinBlurPx =
-    0.2;  // sharper than any lens and pixel; below, the blur has no effect left
-inline constexpr double kMaxBlurPx = 6;  // rejects shadows and gradients
-
 struct StraightFit {
   StraightVector parameters = StraightVector::Zero();
   StraightMatrix covariance = StraightMatrix::Zero();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/bilinear.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -36,7 +37,7 @@ EdgeAxis ContinueEdge(const std::vector<Vector2d>& edge, const TipSearch& search
   constexpr double kFrom = 0.1, kTo = 0.93;  // shares of the edge's length
   EdgeAxis axis;
   axis.origin = edge.front();
-  axis.along = (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+  axis.along = AlongChord(edge);
   const Vector2d left(axis.along.y(), -axis.along.x());
   axis.inwards = search.blade_on_left ? left : Vector2d(-left);
   axis.length = (search.tip_px - axis.origin).dot(axis.along);
@@ -54,19 +55,6 @@ EdgeAxis ContinueEdge(const std::vector<Vector2d>& edge, const TipSearch& search
   return axis;
 }
 
-double Sample(const cv::Mat& grey, const Vector2d& p) {
-  const double x = std::clamp(p.x(), 0.0, grey.cols - 1.001);
-  const double y = std::clamp(p.y(), 0.0, grey.rows - 1.001);
-  const int ix = static_cast<int>(x);
-  const int iy = static_cast<int>(y);
-  const double fx = x - ix;
-  const double fy = y - iy;
-  const uchar* top = grey.ptr<uchar>(iy) + ix;
-  const uchar* bottom = grey.ptr<uchar>(iy + 1) + ix;
-  return (1 - fy) * ((1 - fx) * top[0] + fx * top[1]) +
-         fy * ((1 - fx) * bottom[0] + fx * bottom[1]);
-}
-
 struct EndSeen {
   double depth = 0, position = 0;
 };
@@ -82,7 +70,7 @@ std::optional<EndSeen> LookAlong(
     const Vector2d p = axis.At(t, depth);
     if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
       return std::nullopt;
-    values.push_back(Sample(grey, p));
+    values.push_back(Bilinear<uchar>(grey, p));
   }
   double best = 0;
   std::size_t best_at = 0;
@@ -155,6 +143,10 @@ Arc BestArc(const std::vector<EndSeen>& ends, const std::vector<EndSeen>& follow
 }
 
 }  // namespace
+
+Vector2d AlongChord(const std::vector<Vector2d>& edge) {
+  return (edge[edge.size() * 4 / 5] - edge.front()).normalized();
+}
 
 std::optional<TipCap> FitTipCap(const cv::Mat& grey,
                                 const std::vector<Vector2d>& edge,

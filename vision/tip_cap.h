@@ -24,6 +24,10 @@ struct TipSearch {
   bool blade_on_left = true;  // of the edge, as in EdgeGuess
 };
 
+// Direction of an edge from the crotch towards the tip, its last fifth left out, as that may round
+// off.
+[[nodiscard]] Eigen::Vector2d AlongChord(const std::vector<Eigen::Vector2d>& edge);
+
 // Looks along lines parallel to the cutting edge, within the blade, for where the blade ends, and
 // fits the arc to what they show. It needs no visible edge near the tip: bevels often mirror the
 // background there. `edge` runs from the crotch to about the tip. std::nullopt where too few lines
