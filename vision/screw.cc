@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "vision/screw_field.h"
-#include "vision/screw_rim.h"
+#include "vision/screw_refinement.h"
 #include "vision/screw_search.h"
 #include "vision/screw_slot.h"
 
@@ -39,49 +38,6 @@ bool Rivals(const RimEllipse& a, const RimEllipse& b) {
   const double radius = a.MeanRadius(), ratio = b.MeanRadius() / radius;
   const double apart = (a.center - b.center).norm() / radius;
   return apart > kSameRim && apart < kSameHead && ratio < kMostLarger && ratio > 1 / kMostLarger;
-}
-
-// Encoded grey values around the head as light, at full resolution.
-ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEllipse& rim) {
-  ScaledWindow window = CutWindow(grey, rim.center, 1.5 * rim.SemiAxes()[1] + 8, 1);
-  for (int row = 0; row < window.grey.rows; ++row) {
-    float* values = window.grey.ptr<float>(row);
-    for (int column = 0; column < window.grey.cols; ++column) {
-      values[column] = tone.linear[static_cast<std::size_t>(values[column])];
-    }
-  }
-  return window;
-}
-
-// Whether the scatter along the rim is far less and the centre no other. A rim that light or other
-// edges distort scatters alike whatever its grain, or has its centre moved by which places count;
-// there the plain fit, to which all count alike, errs less.
-bool Gains(const RimFit& in_grain, const RimFit& plain) {
-  constexpr double kFarLess = 0.5;  // of the variance; light alone makes it less by a third
-  constexpr double kSame = 5.99;    // chi^2 of two coordinates, 95 %
-  const Eigen::Vector2d apart = in_grain.rim.center - plain.rim.center;
-  return in_grain.center_covariance.trace() < kFarLess * plain.center_covariance.trace() &&
-         apart.dot(plain.center_covariance.inverse() * apart) < kSame;
-}
-
-// The rim in linear light at full resolution; as judged where that fit leaves the place found.
-RimFit Refine(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged) {
-  const ScaledWindow light = LightAround(grey, tone, judged.rim);
-  const double radius = judged.rim.MeanRadius();
-  const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
-  // A view 11 degrees off the axis flattens a round head by 2 %.
-  RimFitOptions options{half_px, half_px, true, false, 400, 8, 0.002, 0, 0.02};
-  std::optional<RimFit> fit = FitRim(light.grey, judged.rim.Into(light.origin, 1), options);
-  if (!fit) return judged;
-  options.grain = true;
-  options.iterations = 4;  // it starts where the other ended
-  const std::optional<RimFit> in_grain = FitRim(light.grey, fit->rim, options);
-  if (in_grain && Gains(*in_grain, *fit)) fit = in_grain;
-  fit->rim = fit->rim.OutOf(light.origin, 1);
-  const Eigen::Vector2d axes = fit->rim.SemiAxes();
-  const bool same_rim = (fit->rim.center - judged.rim.center).norm() < 0.1 * radius &&
-                        axes[0] >= kLeastAxisRatio * axes[1];
-  return same_rim ? *fit : judged;
 }
 
 // The scatter along the rim cannot tell that light falling from one side moves all of it: where
@@ -118,7 +74,7 @@ WeighedCenter WeighCenters(const cv::Mat& grey,
     });
     if (!differs) continue;
     rims.push_back(&found);
-    centers.emplace_back(std::exp(-behind), Refine(grey, tone, found.fit).rim.center);
+    centers.emplace_back(std::exp(-behind), RefineRim(grey, tone, found.fit).rim.center);
   }
   double total = 0;
   WeighedCenter weighed{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
@@ -155,7 +111,7 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   const FoundRim& best = all.front();
   const double lacking = search.least_evidence - best.evidence;
   if (lacking > (lacking > 0 ? SlotEvidence(grey, tone, best.fit.rim) : 0)) return std::nullopt;
-  const RimFit fit = Refine(grey, tone, best.fit);
+  const RimFit fit = RefineRim(grey, tone, best.fit);
   const WeighedCenter weighed = WeighCenters(grey, tone, all, fit);
   Screw screw;
   screw.center_px = weighed.center;

@@ -17,6 +17,12 @@ constexpr int kFewestProfiles = 24;
 constexpr double kTapPx = 0.5;                // spacing along a profile
 constexpr double kSmoothingTurns = 1.0 / 64;  // Gaussian sigma along the rim before judging
 
+// Of what may be in a profile: trend, common shape and its displacement.
+using Basis =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Eigen::Dynamic, 4 + kMostShading>;
+using Normal =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 4 + kMostShading, 4 + kMostShading>;
+
 Eigen::VectorXd Window(const Eigen::VectorXd& t, double half_px, bool flat) {
   const Eigen::ArrayXd relative = (t.array() / half_px).square();  // 0.2 at the ends
   const Eigen::ArrayXd exponent = flat ? Eigen::ArrayXd(relative.pow(4)) : relative;
@@ -66,18 +72,22 @@ std::optional<RimShape> FindCommonShape(const RimProfiles& profiles, const RimRo
   return shape;
 }
 
-// Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile.
+// Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile. Within
+// the head light may also go with powers of the distance from the rim up to `shading`.
 std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
                                    const RimRows& detrended,
-                                   const RimShape& shape) {
-  const Eigen::Index taps = detrended.cols();
-  Eigen::Matrix<double, Eigen::Dynamic, 4> basis(taps, 4);
-  basis << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
-  const Eigen::Matrix<double, Eigen::Dynamic, 4> weighted = profiles.window.asDiagonal() * basis;
-  const Eigen::Matrix4d normal = basis.transpose() * weighted;
-  // Of the four unknowns the last two: a and a d.
+                                   const RimShape& shape,
+                                   int shading) {
+  const Eigen::Index taps = detrended.cols(), unknowns = 4 + shading;
+  Basis basis(taps, unknowns);
+  basis.rightCols(4) << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
+  const Eigen::ArrayXd within_px = (shape.center_px - profiles.t.array()).max(0.0);
+  for (int power = 1; power <= shading; ++power) basis.col(power - 1) = within_px.pow(power);
+  const Basis weighted = profiles.window.asDiagonal() * basis;
+  const Normal normal = basis.transpose() * weighted;
+  // Of the unknowns the last two: a and a d.
   const Eigen::Matrix<double, Eigen::Dynamic, 2> estimator =
-      weighted * normal.ldlt().solve(Eigen::Matrix4d::Identity()).rightCols<2>();
+      weighted * normal.ldlt().solve(Normal::Identity(unknowns, unknowns)).rightCols(2);
   const Eigen::Matrix<double, Eigen::Dynamic, 2> solution = detrended * estimator;
 
   const double sigma = std::max(0.7, kSmoothingTurns * static_cast<double>(detrended.rows()));
@@ -144,11 +154,11 @@ RimProfiles SampleProfiles(const cv::Mat& picture,
   return profiles;
 }
 
-std::optional<RimMatches> MatchProfiles(const RimProfiles& profiles) {
+std::optional<RimMatches> MatchProfiles(const RimProfiles& profiles, int shading) {
   const RimRows detrended = WithoutTrend(profiles);
   const std::optional<RimShape> shape = FindCommonShape(profiles, detrended);
   if (!shape) return std::nullopt;
-  return RimMatches{*shape, MatchToShape(profiles, detrended, *shape)};
+  return RimMatches{*shape, MatchToShape(profiles, detrended, *shape, shading)};
 }
 
 }  // namespace bladecurve

@@ -75,7 +75,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
         SampleProfiles(picture,
                        fit.rim,
                        {half_px, options.most_profiles / (settling ? 2 : 1), options.flat_window});
-    std::optional<RimMatches> matches = MatchProfiles(profiles);
+    std::optional<RimMatches> matches = MatchProfiles(profiles, options.shading);
     if (!matches) return std::nullopt;
     const bool in_grain = options.grain && !settling;
     if (in_grain) MatchInGrain(profiles, *matches);

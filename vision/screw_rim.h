@@ -14,6 +14,7 @@ struct RimFitOptions {
   double first_half_px = 3;  // of the profiles across the rim: how far off the start may be
   double last_half_px = 2;   // narrower in the end, so that slot and ground disturb less
   bool flat_window = false;  // whole profiles count: exact on a clean rim; else mostly their middle
+  int shading = 0;           // degree to which light goes with the distance within the head
   bool grain = false;        // in the end, each place of the rim is matched as its grain demands
   int most_profiles = 96;    // about one per px of rim up to this many; more only cost time
   int iterations = 6;

@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vision/screw_rim.h"
+#include "vision/tone_curve.h"
+
+namespace bladecurve {
+
+// The rim of a screw's head in linear light at full resolution, all in picture pixels. Shading
+// within the head and the grain of the metal are modelled where that tells the rim better. `judged`
+// itself where the fit leaves it.
+[[nodiscard]] RimFit RefineRim(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged);
+
+}  // namespace bladecurve
