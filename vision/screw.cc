@@ -61,6 +61,7 @@ struct WeighedCenter {
 
 WeighedCenter WeighCenters(const cv::Mat& grey,
                            const ToneCurve& tone,
+                           const std::optional<Eigen::Matrix2d>& view,
                            const std::vector<FoundRim>& all,
                            const RimFit& best) {
   constexpr double kUnlikely = 3;  // less evidence than the best has: odds of 20 to 1
@@ -74,7 +75,7 @@ WeighedCenter WeighCenters(const cv::Mat& grey,
     });
     if (!differs) continue;
     rims.push_back(&found);
-    centers.emplace_back(std::exp(-behind), RefineRim(grey, tone, found.fit).rim.center);
+    centers.emplace_back(std::exp(-behind), RefineRim(grey, tone, found.fit, view).rim.center);
   }
   double total = 0;
   WeighedCenter weighed{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
@@ -111,8 +112,8 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   const FoundRim& best = all.front();
   const double lacking = search.least_evidence - best.evidence;
   if (lacking > (lacking > 0 ? SlotEvidence(grey, tone, best.fit.rim) : 0)) return std::nullopt;
-  const RimFit fit = RefineRim(grey, tone, best.fit);
-  const WeighedCenter weighed = WeighCenters(grey, tone, all, fit);
+  const RimFit fit = RefineRim(grey, tone, best.fit, search.view);
+  const WeighedCenter weighed = WeighCenters(grey, tone, search.view, all, fit);
   Screw screw;
   screw.center_px = weighed.center;
   screw.covariance_px2 = CenterCovariance(fit, best.fit.support) + weighed.spread;

@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
+#include <optional>
 
 namespace bladecurve {
 
@@ -25,6 +27,13 @@ struct RimEllipse {
     const double mean = 0.5 * (shape(0, 0) + shape(1, 1));
     const double spread = std::hypot(0.5 * (shape(0, 0) - shape(1, 1)), shape(0, 1));
     return {mean - spread, mean + spread};
+  }
+  // Minor over major semi-axis of what shows as this ellipse, seen from straight above, where
+  // `view` is known: d image / d plane.
+  [[nodiscard]] double AxisRatioFromAbove(const std::optional<Eigen::Matrix2d>& view) const {
+    const Eigen::Matrix2d flat = view ? Eigen::Matrix2d(view->inverse() * shape) : shape;
+    const Eigen::Vector2d axes = Eigen::JacobiSVD<Eigen::Matrix2d>(flat).singularValues();
+    return axes[1] / axes[0];
   }
   // Of the major axis, from +x towards +y, in (-pi/2, pi/2].
   [[nodiscard]] double MajorAngle() const {

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <optional>
 
 #include "vision/screw_rim.h"
 #include "vision/tone_curve.h"
@@ -10,8 +12,11 @@
 namespace bladecurve {
 
 // The rim of a screw's head in linear light at full resolution, all in picture pixels. Shading
-// within the head and the grain of the metal are modelled where that tells the rim better. `judged`
-// itself where the fit leaves it.
-[[nodiscard]] RimFit RefineRim(const cv::Mat& grey, const ToneCurve& tone, const RimFit& judged);
+// within the head and the grain of the metal are modelled where that tells the rim better; `view`
+// as in ScrewSearch. `judged` itself where the fit leaves it.
+[[nodiscard]] RimFit RefineRim(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const RimFit& judged,
+                               const std::optional<Eigen::Matrix2d>& view);
 
 }  // namespace bladecurve

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "vision/screw_search.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -48,9 +47,7 @@ double UnlikeView(const RimEllipse& rim, const ScrewSearch& search) {
   constexpr double kScatter = 0.03;  // of ln(a/b), the fit's own
   constexpr double kMost = 6;
   if (!search.view) return 0;
-  const Eigen::Vector2d axes =
-      Eigen::JacobiSVD<Eigen::Matrix2d>(search.view->inverse() * rim.shape).singularValues();
-  const double sigmas = std::log(axes[0] / axes[1]) / kScatter;
+  const double sigmas = std::log(rim.AxisRatioFromAbove(search.view)) / kScatter;
   return std::min(0.5 * sigmas * sigmas, kMost);
 }
 

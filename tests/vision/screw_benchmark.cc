@@ -1,21 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// Accuracy of the screw's centre beside the Cramer-Rao bound, and the time it takes.
+// Accuracy of the screw's centre beside the Cramer-Rao bound, and the time it takes: drawn heads,
+// and heads of rendered scissors, whose rims are rounded and lit from one side (no bound).
 #include <fmt/format.h>
 
 #include <Eigen/LU>
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 
+#include "vision/render.h"
 #include "vision/screw.h"
 #include "vision/screw_images.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr int kDraws = 40;
+constexpr int kDraws = 40, kScenes = 12;
 
 struct Look {
   std::string name;
@@ -40,41 +44,73 @@ HeadSpec Head(const Look& look, double radius, std::uint32_t seed) {
   return head;
 }
 
-void Measure(const Look& look, double radius) {
+// A picture of a head, where it is and how well that could be known.
+struct Case {
+  cv::Mat grey;
+  Eigen::Vector2d center_px;
+  double bound_px;
+};
+
+Case Drawn(const Look& look, double radius, std::uint32_t seed) {
+  HeadSpec head = Head(look, radius, seed);
+  Case drawn{RenderHead(head), head.center_px, 0};
+  head.slot = 0;  // the bound is the rim's: the slot is not used
+  drawn.bound_px = CenterBoundPx(head);
+  return drawn;
+}
+
+// The head of rendered scissors, its rim rounded, a lamp on one side of it.
+Case Lit(double glint, double radius, std::uint32_t seed) {
+  Draws draws(seed);
+  SceneSpec scene;
+  scene.seed = seed;
+  scene.camera.mm_per_px = scene.scissors.screw_radius_mm / radius;
+  scene.camera.blur_px = 1;
+  scene.width = static_cast<int>(96 / scene.camera.mm_per_px);
+  scene.height = static_cast<int>(72 / scene.camera.mm_per_px);
+  scene.light.glint = glint;
+  scene.light.direction_rad = draws.Uniform(0, 2 * std::numbers::pi);
+  scene.scissors.slot_rad = draws.Uniform(0, std::numbers::pi);
+  const RenderedPhoto photo = RenderScene(scene);
+  Case lit{{}, photo.truth.screw_px, std::nan("")};
+  cv::cvtColor(photo.bgr, lit.grey, cv::COLOR_BGR2GRAY);
+  return lit;
+}
+
+// draw(seed) gives the cases.
+template <typename Draw>
+void Measure(const std::string& name, double radius, int count, const Draw& draw) {
   int found = 0, inside = 0;
   double squares = 0, bound_squares = 0, ms = 0;
-  for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
-    HeadSpec head = Head(look, radius, seed);
-    const cv::Mat grey = RenderHead(head);
+  for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(count); ++seed) {
+    const Case drawn = draw(seed);
     Draws draws(seed + 1000);
     const double angle = draws.Uniform(0, 2 * std::numbers::pi),
                  off = radius * draws.Uniform(0, 1.2);
     ScrewSearch search;
-    search.guess_px = head.center_px + off * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    search.guess_px = drawn.center_px + off * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     search.radius_px = 1.4 * radius;
     search.min_semi_axis_px = 0.5 * radius;
     search.max_semi_axis_px = 1.8 * radius;
     const auto start = std::chrono::steady_clock::now();
-    const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+    const std::optional<Screw> screw = FindScrew(drawn.grey, SrgbToneCurve(), search);
     ms +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    head.slot = 0;  // the bound is the rim's: the slot is not used
-    const double bound = CenterBoundPx(head);
-    bound_squares += bound * bound;
+    bound_squares += drawn.bound_px * drawn.bound_px;
     if (!screw) continue;
-    const Eigen::Vector2d error = screw->center_px - head.center_px;
+    const Eigen::Vector2d error = screw->center_px - drawn.center_px;
     ++found;
     squares += error.squaredNorm() / 2;
     if (error.dot(screw->covariance_px2.inverse() * error) < 5.991) ++inside;
   }
   fmt::print("{:<16} {:>4.0f} {:>7.0f} % {:>9.4f} {:>9.4f} {:>9.0f} % {:>8.2f}\n",
-             look.name,
+             name,
              radius,
-             100.0 * found / kDraws,
+             100.0 * found / count,
              found > 0 ? std::sqrt(squares / found) : std::nan(""),
-             std::sqrt(bound_squares / kDraws),
+             std::sqrt(bound_squares / count),
              found > 0 ? 100.0 * inside / found : std::nan(""),
-             ms / kDraws);
+             ms / count);
 }
 
 }  // namespace
@@ -96,6 +132,17 @@ int main() {
                            Look{"groove", 0, -0.2, 0, 0},
                            Look{"slotted disc", -0.12, 0, -0.12, 0},
                            Look{"brushed, slotted", -0.12, 0, -0.12, 0.04}}) {
-    for (const double radius : {5.0, 8.0, 15.0, 30.0, 60.0}) bladecurve::Measure(look, radius);
+    for (const double radius : {5.0, 8.0, 15.0, 30.0, 60.0}) {
+      bladecurve::Measure(look.name, radius, bladecurve::kDraws, [&](std::uint32_t seed) {
+        return bladecurve::Drawn(look, radius, seed);
+      });
+    }
+  }
+  for (const auto& [name, glint] : {std::pair{"even light", 0.0}, {"lamp", 0.5}, {"sun", 1.2}}) {
+    for (const double radius : {15.0, 30.0, 60.0}) {
+      bladecurve::Measure(name, radius, bladecurve::kScenes, [&](std::uint32_t seed) {
+        return bladecurve::Lit(glint, radius, seed);
+      });
+    }
   }
 }
