@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "vision/screw_field.h"
@@ -39,41 +40,75 @@ double Doubt(const RimFit& fit, const View& view) {
   return std::log(Scatter(fit)) + std::min(0.5 * sigmas * sigmas, kMost);
 }
 
-// The fit with more freedom for the light takes from what tells the place, so its scatter may only
-// be more than the plain fit's where that one has a side that does not look like the rest.
+// Whether the fit did not run away to another rim than it began at.
+bool SameRim(const RimEllipse& rim, const RimEllipse& start) {
+  constexpr double kOff = 0.1, kLarger = 0.1;  // of the radius
+  constexpr double kLargerPx = 2;              // what is judged of small heads is rough
+  const double radius = start.MeanRadius();
+  const Eigen::Vector2d axes = rim.SemiAxes();
+  return (rim.center - start.center).norm() < kOff * radius &&
+         std::abs(rim.MeanRadius() - radius) < std::max(kLarger * radius, kLargerPx) &&
+         axes[0] >= kLeastAxisRatio * axes[1];
+}
+
+struct RefinedRim {
+  RimFitOptions options;
+  RimFit fit;
+};
+
+RimFitOptions PlainOptions(double radius) {
+  const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
+  RimFitOptions options{.first_half_px = half_px, .last_half_px = half_px, .flat_window = true};
+  options.most_profiles = 400;
+  options.iterations = 8;
+  options.converged_px = 0.002;
+  options.hopeless_support = 0;
+  options.expected_flattening = 0.02;  // as a view 11 degrees off the axis
+  return options;
+}
+
+// Light may rise or fall towards the rim within the head.
+RimFitOptions ShadedOptions(double radius, int degree) {
+  constexpr double kWithin = 0.22;  // of the radius: light bends more further in
+  RimFitOptions options = PlainOptions(radius);
+  options.shading = degree;
+  options.last_half_px = std::clamp(kWithin * radius, 3.0, options.first_half_px);
+  options.iterations = 12;  // the profiles shorten first
+  return options;
+}
+
+// A fit with more freedom for the light takes from what tells the place: its scatter may only be
+// more than the plain fit's where that one has a side that does not look like the rest.
 double MostScatter(const RimFit& plain) {
   constexpr double kAlikeAllRound = 0.85;  // support of the poorest third
   constexpr double kMore = 5;
   return (plain.third_support < kAlikeAllRound ? kMore : 1) * Scatter(plain);
 }
 
-// The options whose fit is the least doubtful, and that fit: `plain`, or one that lets light rise
-// or fall towards the rim within the head.
-struct ShadedFit {
-  RimFitOptions options;
-  RimFit fit;
-};
-
-ShadedFit ModelShading(const cv::Mat& light,
-                       const RimEllipse& start,
-                       const View& view,
-                       const ShadedFit& plain) {
+// Of the fit to a rim that is alike all round and those to a shaded one, the least doubtful.
+std::optional<RefinedRim> FitLight(const cv::Mat& light,
+                                   const RimEllipse& start,
+                                   const View& view) {
   constexpr double kLeastRadiusPx = 10;  // in smaller heads too little lies within the rim
-  constexpr double kWithin = 0.22;       // of the radius: light bends more further in
   constexpr double kClearly = 0.5;       // less doubt; less than that is chance
-  ShadedFit best = plain;
   const double radius = start.MeanRadius();
+  std::optional<RefinedRim> best;
+  double most_doubt = std::numeric_limits<double>::infinity(), most_scatter = most_doubt;
+  const RimFitOptions options = PlainOptions(radius);
+  const std::optional<RimFit> plain = FitRim(light, start, options);
+  if (plain && SameRim(plain->rim, start)) {
+    best = {options, *plain};
+    most_doubt = Doubt(*plain, view) - kClearly;
+    most_scatter = MostScatter(*plain);
+  }
   if (radius < kLeastRadiusPx) return best;
-  double most_doubt = Doubt(plain.fit, view) - kClearly;
   for (int degree = 1; degree <= kMostShading; ++degree) {
-    RimFitOptions options = plain.options;
-    options.shading = degree;
-    options.last_half_px = std::clamp(kWithin * radius, 3.0, 6.0);
-    options.iterations = 12;  // the profiles shorten first
-    const std::optional<RimFit> fit = FitRim(light, start, options);
-    if (!fit || Doubt(*fit, view) > most_doubt || Scatter(*fit) > MostScatter(plain.fit)) continue;
+    const RimFitOptions shaded = ShadedOptions(radius, degree);
+    const std::optional<RimFit> fit = FitRim(light, start, shaded);
+    if (!fit || !SameRim(fit->rim, start)) continue;
+    if (Doubt(*fit, view) > most_doubt || Scatter(*fit) > most_scatter) continue;
     most_doubt = Doubt(*fit, view);
-    best = {options, *fit};
+    best = {shaded, *fit};
   }
   return best;
 }
@@ -97,26 +132,15 @@ RimFit RefineRim(const cv::Mat& grey,
                  const std::optional<Eigen::Matrix2d>& view) {
   const ScaledWindow light = LightAround(grey, tone, judged.rim);
   const RimEllipse start = judged.rim.Into(light.origin, 1);
-  const double radius = start.MeanRadius();
-  const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
-  RimFitOptions options{.first_half_px = half_px, .last_half_px = half_px, .flat_window = true};
-  options.most_profiles = 400;
-  options.iterations = 8;
-  options.converged_px = 0.002;
-  options.hopeless_support = 0;
-  options.expected_flattening = 0.02;  // as a view 11 degrees off the axis
-  const std::optional<RimFit> plain = FitRim(light.grey, start, options);
-  if (!plain) return judged;
-  auto [best_options, fit] = ModelShading(light.grey, start, view, {options, *plain});
-  best_options.grain = true;
-  best_options.iterations = 4;  // it starts where the other ended
-  const std::optional<RimFit> in_grain = FitRim(light.grey, fit.rim, best_options);
+  std::optional<RefinedRim> refined = FitLight(light.grey, start, view);
+  if (!refined) return judged;
+  refined->options.grain = true;
+  refined->options.iterations = 4;  // it starts where the other ended
+  RimFit& fit = refined->fit;
+  const std::optional<RimFit> in_grain = FitRim(light.grey, fit.rim, refined->options);
   if (in_grain && Gains(*in_grain, fit)) fit = *in_grain;
   fit.rim = fit.rim.OutOf(light.origin, 1);
-  const Eigen::Vector2d axes = fit.rim.SemiAxes();
-  const bool same_rim = (fit.rim.center - judged.rim.center).norm() < 0.1 * radius &&
-                        axes[0] >= kLeastAxisRatio * axes[1];
-  return same_rim ? fit : judged;
+  return fit;
 }
 
 }  // namespace bladecurve
