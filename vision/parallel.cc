@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "vision/parallel.h"
 
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
-#include <atomic>
+#include <cstddef>
 #include <exception>
 #include <opencv2/core/utility.hpp>
-#include <thread>
+#include <optional>
 #include <vector>
 
 namespace bladecurve {
@@ -29,37 +33,71 @@ class ThreadShare {
   int before_;
 };
 
+// In the arena of the calling thread; call(i) must not throw.
+template <typename Call>
+void ForEach(int count, const Call& call) {
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, count, 1),
+      [&](const tbb::blocked_range<int>& range) {
+        for (int i = range.begin(); i < range.end(); ++i) call(i);
+      },
+      tbb::simple_partitioner());
+}
+
+// What calls throw, each kept until all are done.
+class Errors {
+ public:
+  explicit Errors(int count) : errors_(static_cast<std::size_t>(count)) {}
+
+  void Call(const std::function<void(int)>& work, int i) {
+    try {
+      work(i);
+    } catch (...) {
+      errors_[static_cast<std::size_t>(i)] = std::current_exception();
+    }
+  }
+
+  void RethrowFirst() const {
+    for (const std::exception_ptr& error : errors_) {
+      if (error) std::rethrow_exception(error);
+    }
+  }
+
+ private:
+  std::vector<std::exception_ptr> errors_;
+};
+
 }  // namespace
 
 void ParallelFor(int count, int num_threads, const std::function<void(int)>& work) {
   if (count < 1) return;
-  const int workers = std::clamp(num_threads, 1, count);
-  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
-  std::atomic<int> next = 0;
-  const auto take_turns = [&] {
-    const ThreadShare share(std::max(1, num_threads / workers));
-    for (int i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        errors[static_cast<std::size_t>(i)] = std::current_exception();
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> helpers;
-    for (int t = 1; t < workers; ++t) helpers.emplace_back(take_turns);
-    take_turns();
+  const int threads = std::max(1, num_threads), share = std::max(1, threads / count);
+  Errors errors(count);
+  std::optional<tbb::global_control> more;  // than the machine has: only if asked for
+  if (threads > MachineThreads()) {
+    more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  tbb::task_arena(threads).execute([&] {
+    ForEach(count, [&](int i) {
+      const ThreadShare mine(share);
+      // A call that waits for its own parts must not begin another call meanwhile.
+      tbb::this_task_arena::isolate([&] { errors.Call(work, i); });
+    });
+  });
+  errors.RethrowFirst();
 }
 
 int UsableThreads() { return usable_threads; }
 
 void ParallelFor(int count, const std::function<void(int)>& work) {
-  ParallelFor(count, usable_threads, work);
+  if (count < 1) return;
+  const int share = std::max(1, usable_threads / count);
+  Errors errors(count);
+  ForEach(count, [&](int i) {
+    const ThreadShare mine(share);
+    errors.Call(work, i);
+  });
+  errors.RethrowFirst();
 }
 
 }  // namespace bladecurve

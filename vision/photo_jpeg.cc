@@ -182,7 +182,7 @@ cv::Mat DecodeGreyInTwo(std::string_view bytes, const cv::Size& size) {
   constexpr int kBlockRows = 16;  // of pictures with halved colour; whole ones are skipped best
   const int seam = static_cast<int>(kUpperShare * size.height) / kBlockRows * kBlockRows;
   cv::Mat grey(size, CV_8UC1);
-  ParallelFor(2, 2, [&](int part) {
+  ParallelFor(2, [&](int part) {
     JpegReader reader(bytes);
     reader.DecodeGreyRows(part == 0 ? 0 : seam, part == 0 ? seam : size.height, &grey);
   });

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <vector>
 
+#include "vision/parallel.h"
 #include "vision/screw_field.h"
 #include "vision/screw_profiles.h"
 #include "vision/screw_search.h"
@@ -61,7 +63,7 @@ RimFitOptions PlainOptions(double radius) {
   RimFitOptions options{.first_half_px = half_px, .last_half_px = half_px, .flat_window = true};
   options.most_profiles = 400;
   options.iterations = 8;
-  options.converged_px = 0.002;
+  options.converged_px = 0.005;
   options.hopeless_support = 0;
   options.expected_flattening = 0.02;  // as a view 11 degrees off the axis
   return options;
@@ -85,30 +87,40 @@ double MostScatter(const RimFit& plain) {
   return (plain.third_support < kAlikeAllRound ? kMore : 1) * Scatter(plain);
 }
 
-// Of the fit to a rim that is alike all round and those to a shaded one, the least doubtful.
+// The fit with no shading first, then by degrees; those that ran away are left out.
+std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& start) {
+  constexpr double kLeastRadiusPx = 10;  // in smaller heads too little lies within the rim
+  const double radius = start.MeanRadius();
+  std::vector<RimFitOptions> options{PlainOptions(radius)};
+  for (int degree = 1; radius >= kLeastRadiusPx && degree <= kMostShading; ++degree)
+    options.push_back(ShadedOptions(radius, degree));
+  std::vector<std::optional<RimFit>> fits(options.size());
+  ParallelFor(static_cast<int>(options.size()), [&](int i) {
+    const auto degree = static_cast<std::size_t>(i);
+    fits[degree] = FitRim(light, start, options[degree]);
+  });
+  std::vector<RefinedRim> kept;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (fits[i] && SameRim(fits[i]->rim, start)) kept.push_back({options[i], *fits[i]});
+  }
+  return kept;
+}
+
+// The least doubtful.
 std::optional<RefinedRim> FitLight(const cv::Mat& light,
                                    const RimEllipse& start,
                                    const View& view) {
-  constexpr double kLeastRadiusPx = 10;  // in smaller heads too little lies within the rim
-  constexpr double kClearly = 0.5;       // less doubt; less than that is chance
-  const double radius = start.MeanRadius();
+  constexpr double kClearly = 0.5;  // less doubt; less than that is chance
   std::optional<RefinedRim> best;
   double most_doubt = std::numeric_limits<double>::infinity(), most_scatter = most_doubt;
-  const RimFitOptions options = PlainOptions(radius);
-  const std::optional<RimFit> plain = FitRim(light, start, options);
-  if (plain && SameRim(plain->rim, start)) {
-    best = {options, *plain};
-    most_doubt = Doubt(*plain, view) - kClearly;
-    most_scatter = MostScatter(*plain);
-  }
-  if (radius < kLeastRadiusPx) return best;
-  for (int degree = 1; degree <= kMostShading; ++degree) {
-    const RimFitOptions shaded = ShadedOptions(radius, degree);
-    const std::optional<RimFit> fit = FitRim(light, start, shaded);
-    if (!fit || !SameRim(fit->rim, start)) continue;
-    if (Doubt(*fit, view) > most_doubt || Scatter(*fit) > most_scatter) continue;
-    most_doubt = Doubt(*fit, view);
-    best = {shaded, *fit};
+  for (const RefinedRim& rim : FitByDegrees(light, start)) {
+    const double doubt = Doubt(rim.fit, view);
+    if (doubt > most_doubt || Scatter(rim.fit) > most_scatter) continue;
+    best = rim;
+    most_doubt = doubt;
+    if (rim.options.shading > 0) continue;
+    most_doubt -= kClearly;
+    most_scatter = MostScatter(rim.fit);
   }
   return best;
 }

@@ -139,16 +139,23 @@ class Octave {
   [[nodiscard]] FoundRim Polish(const FoundRim& found) const {
     constexpr double kAside = 0.15, kLarger = 1.12;  // of the radius: as far as the profiles reach
     const double radius = found.fit.rim.MeanRadius();
-    std::optional<FoundRim> best = found;
+    const Eigen::Vector2d& center = found.fit.rim.center;
+    std::vector<RimEllipse> starts;
     for (const Eigen::Vector2d& aside : {Eigen::Vector2d(kAside, 0),
                                          Eigen::Vector2d(-kAside, 0),
                                          Eigen::Vector2d(0, kAside),
                                          Eigen::Vector2d(0, -kAside)}) {
-      KeepBetter(Judge(RimEllipse::Circle(found.fit.rim.center + radius * aside, radius)), best);
+      starts.push_back(RimEllipse::Circle(center + radius * aside, radius));
     }
-    for (const double factor : {kLarger, 1 / kLarger}) {
-      KeepBetter(Judge(RimEllipse::Circle(found.fit.rim.center, factor * radius)), best);
-    }
+    for (const double factor : {kLarger, 1 / kLarger})
+      starts.push_back(RimEllipse::Circle(center, factor * radius));
+    std::vector<std::optional<FoundRim>> judged(starts.size());
+    ParallelFor(static_cast<int>(starts.size()), [&](int i) {
+      const auto start = static_cast<std::size_t>(i);
+      judged[start] = Judge(starts[start]);
+    });
+    std::optional<FoundRim> best = found;
+    for (const std::optional<FoundRim>& rim : judged) KeepBetter(rim, best);
     return *best;
   }
 
