@@ -116,6 +116,7 @@ TEST(Layers, VisionKnowsNeitherModelNorCurvefit) {
                      "tiffio.h",
                      "libheif/",
                      "libexif/",
+                     "tbb/",
                      "immintrin.h",
                      "cpuid.h"}});
 }
