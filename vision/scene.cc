@@ -19,10 +19,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
-// and more.
-constexpr double kAcceptedQuality = 0.45;
-
 // A line through the part of a traced edge that is clear of the crotch: point and unit direction.
 struct FittedLine {
   Vector2d point, direction;

@@ -25,11 +25,18 @@ double Merit(const Candidate& c) {
          std::sqrt(std::min(c.agreeing, 4) * c.strength * SizeOf(c.pair) * c.at->full_px_per_px());
 }
 
+// What could be accepted first, however many masks agree on what could not.
+bool Better(const Candidate& a, const Candidate& b) {
+  const bool a_usable = a.pair.quality >= kAcceptedQuality;
+  const bool b_usable = b.pair.quality >= kAcceptedQuality;
+  return a_usable != b_usable ? a_usable : Merit(a) > Merit(b);
+}
+
 LadderResult Choose(const std::vector<Candidate>& candidates) {
   LadderResult result;
   const Candidate* best = nullptr;
   for (const Candidate& c : candidates) {
-    if (best == nullptr || Merit(c) > Merit(*best)) best = &c;
+    if (best == nullptr || Better(c, *best)) best = &c;
   }
   if (best == nullptr) return result;
   const Candidate* strongest = best;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -185,6 +186,23 @@ TEST(FindScene, MeasuresOnEveryBackdrop) {
     spec.backdrop = backdrop;
     EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "") << "backdrop " << static_cast<int>(backdrop);
   }
+}
+
+// Thresholds see the blade without its bevel and agree on that; only the flood sees all of it.
+TEST(FindScene, SeesABevelAsBrightAsThePaper) {
+  SceneSpec spec;
+  spec.seed = 13;
+  spec.camera.mm_per_px = 0.1;
+  spec.light.direction_rad = 13 * 0.39;
+  spec.scissors.slot_rad = 13 * 0.7;
+  const RenderedPhoto photo = RenderScene(spec);
+  const fs::path file = ProcessFolder() / "bevel.jpg";
+  std::ofstream(file, std::ios::binary) << EncodeJpeg(photo.bgr, 95);
+  MeasureOptions options;
+  options.scale.mm_per_px = photo.truth.mm_per_px;
+  const PhotoMeasurement measured = MeasurePhoto(file, options);
+  EXPECT_NEAR(measured.theta_rad, photo.truth.theta_rad, 0.1 * kDegree);
+  EXPECT_LT((measured.upper_end_px - photo.truth.upper.end_px).norm(), 5);
 }
 
 }  // namespace
