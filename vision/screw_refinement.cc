@@ -89,7 +89,7 @@ double MostScatter(const RimFit& plain) {
 
 // The fit with no shading first, then by degrees; those that ran away are left out.
 std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& start) {
-  constexpr double kLeastRadiusPx = 10;  // in smaller heads too little lies within the rim
+  constexpr double kLeastRadiusPx = 16;  // in smaller heads too little lies within the rim
   const double radius = start.MeanRadius();
   std::vector<RimFitOptions> options{PlainOptions(radius)};
   for (int degree = 1; radius >= kLeastRadiusPx && degree <= kMostShading; ++degree)
