@@ -33,71 +33,50 @@ class ThreadShare {
   int before_;
 };
 
-// In the arena of the calling thread; call(i) must not throw.
-template <typename Call>
-void ForEach(int count, const Call& call) {
+// In the arena of the calling thread; each call may use its part of num_threads for certain.
+void CallEach(int count, int num_threads, const std::function<void(int)>& work) {
+  const int share = std::max(1, num_threads / count);
+  std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
+  const auto call = [&](int i) {
+    const ThreadShare mine(share);
+    try {
+      work(i);
+    } catch (...) {
+      errors[static_cast<std::size_t>(i)] = std::current_exception();
+    }
+  };
   tbb::parallel_for(
       tbb::blocked_range<int>(0, count, 1),
       [&](const tbb::blocked_range<int>& range) {
         for (int i = range.begin(); i < range.end(); ++i) call(i);
       },
       tbb::simple_partitioner());
+  for (const std::exception_ptr& error : errors) {
+    if (error) std::rethrow_exception(error);
+  }
 }
-
-// What calls throw, each kept until all are done.
-class Errors {
- public:
-  explicit Errors(int count) : errors_(static_cast<std::size_t>(count)) {}
-
-  void Call(const std::function<void(int)>& work, int i) {
-    try {
-      work(i);
-    } catch (...) {
-      errors_[static_cast<std::size_t>(i)] = std::current_exception();
-    }
-  }
-
-  void RethrowFirst() const {
-    for (const std::exception_ptr& error : errors_) {
-      if (error) std::rethrow_exception(error);
-    }
-  }
-
- private:
-  std::vector<std::exception_ptr> errors_;
-};
 
 }  // namespace
 
 void ParallelFor(int count, int num_threads, const std::function<void(int)>& work) {
   if (count < 1) return;
-  const int threads = std::max(1, num_threads), share = std::max(1, threads / count);
-  Errors errors(count);
+  const int threads = std::max(1, num_threads);
   std::optional<tbb::global_control> more;  // than the machine has: only if asked for
   if (threads > MachineThreads()) {
     more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   tbb::task_arena(threads).execute([&] {
-    ForEach(count, [&](int i) {
-      const ThreadShare mine(share);
+    CallEach(count, threads, [&](int i) {
       // A call that waits for its own parts must not begin another call meanwhile.
-      tbb::this_task_arena::isolate([&] { errors.Call(work, i); });
+      tbb::this_task_arena::isolate([&] { work(i); });
     });
   });
-  errors.RethrowFirst();
+}
+
+void ParallelFor(int count, const std::function<void(int)>& work) {
+  if (count > 0) CallEach(count, usable_threads, work);
 }
 
 int UsableThreads() { return usable_threads; }
-
-void ParallelFor(int count, const std::function<void(int)>& work) {
-  if (count < 1) return;
-  const int share = std::max(1, usable_threads / count);
-  Errors errors(count);
-  ForEach(count, [&](int i) {
-    const ThreadShare mine(share);
-    errors.Call(work, i);
-  });
-  errors.RethrowFirst();
-}
 
 }  // namespace bladecurve

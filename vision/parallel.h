@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <type_traits>
+#include <vector>
 
 namespace bladecurve {
 
@@ -15,6 +18,14 @@ void ParallelFor(int count, int num_threads, const std::function<void(int)>& wor
 // The same for parts of such a call, on those of its threads that are idle then; outside of any, on
 // all of the machine's. So photographs measured beside each other leave each other their threads.
 void ParallelFor(int count, const std::function<void(int)>& work);
+
+// make(0) .. make(count - 1), made by that ParallelFor.
+template <typename Make>
+[[nodiscard]] auto ParallelMap(int count, const Make& make) {
+  std::vector<std::invoke_result_t<const Make&, int>> made(static_cast<std::size_t>(count));
+  ParallelFor(count, [&](int i) { made[static_cast<std::size_t>(i)] = make(i); });
+  return made;
+}
 
 // How many threads are this work's for certain: its part of those of the ParallelFor that it works
 // for, or all of the machine's.

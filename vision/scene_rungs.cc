@@ -30,14 +30,6 @@ bool Settled(const std::vector<Candidate>& candidates) {
   });
 }
 
-// What the masks 0 .. count - 1 show, each seen by see(i).
-template <typename See>
-std::vector<Rung> SeeAll(int count, const See& see) {
-  std::vector<Rung> seen(static_cast<std::size_t>(count));
-  ParallelFor(count, [&](int i) { seen[static_cast<std::size_t>(i)] = see(i); });
-  return seen;
-}
-
 std::vector<double> ThresholdsUpTo(const cv::Mat& distance) {
   double most = 0;
   cv::minMaxLoc(distance, nullptr, &most);
@@ -59,7 +51,7 @@ Rung ThresholdAll(const cv::Mat& distance,
   rung.distance = distance;
   for (int first = 0; first < all && !Settled(rung.candidates);) {
     const int count = std::min(all - first, first == 0 ? kEnough : UsableThreads());
-    std::vector<Rung> seen = SeeAll(count, [&](int i) {
+    std::vector<Rung> seen = ParallelMap(count, [&](int i) {
       Candidate at_threshold = like;
       at_threshold.threshold = thresholds[static_cast<std::size_t>(first + i)];
       return SeenIn(MaskAbove(smooth, at_threshold.threshold), at_threshold, hidden, hints);
@@ -126,7 +118,7 @@ Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
   Rung rung;
   for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
     rung.distance = FloodLevels(sharp_gradient, distance, colour.ignore, closed_px);
-    std::vector<Rung> seen = SeeAll(static_cast<int>(std::size(kLevels)), [&](int i) {
+    std::vector<Rung> seen = ParallelMap(static_cast<int>(std::size(kLevels)), [&](int i) {
       const Candidate like{{}, colour.lab, {}, "flood", kLevels[i]};
       const cv::Mat dry = DryMask(rung.distance, like.threshold, closed_px);
       return SeenIn(dry, like, colour.ignore, view.hints);

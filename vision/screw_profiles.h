@@ -70,7 +70,6 @@ inline constexpr int kMostShading = 2;
 // `shading`: degree, up to kMostShading, to which light may rise or fall towards the rim within the
 // head, at each place by another amount, as on a rounded rim or a lit chamfer; 0: not at all.
 // std::nullopt where the profiles have nothing in common.
-
 [[nodiscard]] std::optional<RimMatches> MatchProfiles(const RimProfiles& profiles, int shading = 0);
 
 }  // namespace bladecurve

@@ -19,6 +19,8 @@ namespace {
 
 using View = std::optional<Eigen::Matrix2d>;
 
+constexpr double kUsualFlattening = 0.02;  // of a head, as a view 11 degrees off the axis
+
 // Encoded grey values around the head as light, at full resolution.
 ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEllipse& rim) {
   ScaledWindow window = CutWindow(grey, rim.center, 1.5 * rim.SemiAxes()[1] + 8, 1);
@@ -33,11 +35,11 @@ ScaledWindow LightAround(const cv::Mat& grey, const ToneCurve& tone, const RimEl
 
 double Scatter(const RimFit& fit) { return fit.center_covariance.trace(); }
 
-// -2 ln of the odds that a fit holds: by the scatter along the rim, and by how far from round its
-// ellipse is. Where one side follows something else than the rim, the ellipse is longer.
+// -ln of the odds that a fit holds, but for a constant: by the scatter along the rim, and by how
+// far from round its ellipse is. Where one side follows something else than the rim, the ellipse is
+// longer.
 double Doubt(const RimFit& fit, const View& view) {
-  constexpr double kUsualFlattening = 0.02;  // as a view 11 degrees off the axis
-  constexpr double kMost = 6;                // a view may be more oblique
+  constexpr double kMost = 6;  // a view may be more oblique
   const double sigmas = (1 - fit.rim.AxisRatioFromAbove(view)) / kUsualFlattening;
   return std::log(Scatter(fit)) + std::min(0.5 * sigmas * sigmas, kMost);
 }
@@ -65,7 +67,7 @@ RimFitOptions PlainOptions(double radius) {
   options.iterations = 8;
   options.converged_px = 0.005;
   options.hopeless_support = 0;
-  options.expected_flattening = 0.02;  // as a view 11 degrees off the axis
+  options.expected_flattening = kUsualFlattening;
   return options;
 }
 
@@ -94,10 +96,8 @@ std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& sta
   std::vector<RimFitOptions> options{PlainOptions(radius)};
   for (int degree = 1; radius >= kLeastRadiusPx && degree <= kMostShading; ++degree)
     options.push_back(ShadedOptions(radius, degree));
-  std::vector<std::optional<RimFit>> fits(options.size());
-  ParallelFor(static_cast<int>(options.size()), [&](int i) {
-    const auto degree = static_cast<std::size_t>(i);
-    fits[degree] = FitRim(light, start, options[degree]);
+  const auto fits = ParallelMap(static_cast<int>(options.size()), [&](int i) {
+    return FitRim(light, start, options[static_cast<std::size_t>(i)]);
   });
   std::vector<RefinedRim> kept;
   for (std::size_t i = 0; i < fits.size(); ++i) {
@@ -106,7 +106,7 @@ std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& sta
   return kept;
 }
 
-// The least doubtful.
+// The least doubtful; a shaded one instead of the plain one only if that is clearly in doubt.
 std::optional<RefinedRim> FitLight(const cv::Mat& light,
                                    const RimEllipse& start,
                                    const View& view) {

@@ -149,10 +149,8 @@ class Octave {
     }
     for (const double factor : {kLarger, 1 / kLarger})
       starts.push_back(RimEllipse::Circle(center, factor * radius));
-    std::vector<std::optional<FoundRim>> judged(starts.size());
-    ParallelFor(static_cast<int>(starts.size()), [&](int i) {
-      const auto start = static_cast<std::size_t>(i);
-      judged[start] = Judge(starts[start]);
+    const auto judged = ParallelMap(static_cast<int>(starts.size()), [&](int i) {
+      return Judge(starts[static_cast<std::size_t>(i)]);
     });
     std::optional<FoundRim> best = found;
     for (const std::optional<FoundRim>& rim : judged) KeepBetter(rim, best);
@@ -178,10 +176,8 @@ std::vector<double> OctaveRadii(const ScrewSearch& search) {
 
 std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
   const std::vector<double> radii = OctaveRadii(search);
-  std::vector<std::vector<FoundRim>> by_octave(radii.size());
-  ParallelFor(static_cast<int>(radii.size()), [&](int i) {
-    const auto octave = static_cast<std::size_t>(i);
-    by_octave[octave] = Octave(grey, search, radii[octave]).FindAll();
+  const auto by_octave = ParallelMap(static_cast<int>(radii.size()), [&](int i) {
+    return Octave(grey, search, radii[static_cast<std::size_t>(i)]).FindAll();
   });
   std::vector<FoundRim> all;
   for (const std::vector<FoundRim>& octave : by_octave)

@@ -9,7 +9,6 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <vector>
 
 #include "vision/render.h"
 #include "vision/screw.h"
@@ -18,6 +17,7 @@ namespace bladecurve {
 namespace {
 
 constexpr int kLamps = 6;
+constexpr double kMmPerPx = 0.07;
 
 // A rendered head with a rounded rim, the lamp in one of kLamps directions.
 RenderedPhoto LitHead(int lamp, double glint) {
@@ -25,7 +25,7 @@ RenderedPhoto LitHead(int lamp, double glint) {
   scene.seed = static_cast<std::uint32_t>(lamp + 1);
   scene.width = 1200;
   scene.height = 900;
-  scene.camera.mm_per_px = 0.07;
+  scene.camera.mm_per_px = kMmPerPx;
   scene.light.direction_rad = 2 * std::numbers::pi * lamp / kLamps;
   scene.light.glint = glint;
   return RenderScene(scene);
@@ -43,10 +43,11 @@ std::optional<Screw> FindNear(const RenderedPhoto& photo, double radius_px) {
 }
 
 double RmsOverLamps(double glint) {
+  const double radius_px = ScissorsSpec().screw_radius_mm / kMmPerPx;
   double squares = 0;
   for (int lamp = 0; lamp < kLamps; ++lamp) {
     const RenderedPhoto photo = LitHead(lamp, glint);
-    const std::optional<Screw> screw = FindNear(photo, 2.6 / 0.07);
+    const std::optional<Screw> screw = FindNear(photo, radius_px);
     EXPECT_TRUE(screw) << "lamp " << lamp;
     if (screw) squares += (screw->center_px - photo.truth.screw_px).squaredNorm() / 2;
   }
