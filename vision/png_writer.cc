@@ -44,8 +44,10 @@ void WriteHeader(const PngWriter& writer, const cv::Mat& image, double dpi) {
     const png_uint_32 per_metre = static_cast<png_uint_32>(std::lround(dpi * kInchesPerMetre));
     png_set_pHYs(writer.png, writer.info, per_metre, per_metre, PNG_RESOLUTION_METER);
   }
-  png_set_compression_level(writer.png,
-                            3);  // debug pictures: a third of the time for a tenth more bytes
+  // Of a photograph with lines on it: a quarter to a third of the time of all filters at level 3,
+  // and at most a fifth more bytes.
+  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_set_compression_level(writer.png, 1);
   png_write_info(writer.png, writer.info);
   png_set_bgr(writer.png);
 }
