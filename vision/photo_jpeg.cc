@@ -127,9 +127,9 @@ cv::Mat JpegReader::Decode(const DecodeOptions& options) {
   const PixelLayout layout = ChooseLayout(options.colour);
   ChooseSize(options.long_side);
   Guarded([&] { jpeg_start_decompress(&info_); });
-  cv::Mat stored(static_cast<int>(info_.output_height),
-                 static_cast<int>(info_.output_width),
-                 CV_8UC(ChannelsOf(layout)));
+  cv::Mat stored = NewPicture(
+      cv::Size(static_cast<int>(info_.output_width), static_cast<int>(info_.output_height)),
+      CV_8UC(ChannelsOf(layout)));
   ReadRows(stored.rows, &stored);
   return ConvertPixels(stored, layout, options.colour);
 }
@@ -181,7 +181,7 @@ cv::Mat DecodeGreyInTwo(std::string_view bytes, const cv::Size& size) {
   constexpr double kUpperShare = 0.7;  // both take about as long
   constexpr int kBlockRows = 16;  // of pictures with halved colour; whole ones are skipped best
   const int seam = static_cast<int>(kUpperShare * size.height) / kBlockRows * kBlockRows;
-  cv::Mat grey(size, CV_8UC1);
+  cv::Mat grey = NewPicture(size, CV_8UC1);
   ParallelFor(2, [&](int part) {
     JpegReader reader(bytes);
     reader.DecodeGreyRows(part == 0 ? 0 : seam, part == 0 ? seam : size.height, &grey);

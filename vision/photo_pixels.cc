@@ -1,5 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
@@ -87,6 +91,19 @@ int ChannelsOf(PixelLayout layout) {
     default:
       return 4;
   }
+}
+
+cv::Mat NewPicture(const cv::Size& size, int type) {
+  cv::Mat picture(size, type);
+#ifdef MADV_HUGEPAGE
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(picture.datastart);
+  const std::uintptr_t first = (begin + page - 1) / page * page;
+  const std::uintptr_t last = reinterpret_cast<std::uintptr_t>(picture.dataend) / page * page;
+  // A wish only: without large pages the picture is as good.
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
+  return picture;
 }
 
 cv::Mat ConvertPixels(const cv::Mat& stored, PixelLayout layout, bool colour) {

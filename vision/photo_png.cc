@@ -92,7 +92,7 @@ cv::Mat PngReader::Decode(bool colour) {
     png_read_update_info(png_, info_);
   });
   const PixelLayout layout = Layout();
-  cv::Mat stored(height(), width(), CV_8UC(ChannelsOf(layout)));
+  cv::Mat stored = NewPicture(cv::Size(width(), height()), CV_8UC(ChannelsOf(layout)));
   std::vector<png_bytep> rows(static_cast<size_t>(stored.rows));
   for (int y = 0; y < stored.rows; ++y) rows[static_cast<size_t>(y)] = stored.ptr<uchar>(y);
   Guarded([&] { png_read_image(png_, rows.data()); });
