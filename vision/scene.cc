@@ -91,6 +91,14 @@ std::vector<Vector2d> TraceInner(const cv::Mat& image, const BladeContour& blade
   return TraceStrongestEdge(image, blade.inner, inside, range);
 }
 
+// The waist runs across the axis, hence obliquely across the members that cross there.
+double WidthOfMembers(const BladePair& pair) {
+  const Vector2d first = (pair.first.tip - pair.pivot).normalized();
+  const Vector2d second = (pair.second.tip - pair.pivot).normalized();
+  const double cos_half_opening = 0.5 * (first + second).norm();
+  return pair.shank_width * cos_half_opening;
+}
+
 Scene SceneFrom(const Candidate& found) {
   const BladePair& pair = found.pair;
   const ScaledImage& at = *found.at;
@@ -108,7 +116,7 @@ Scene SceneFrom(const Candidate& found) {
   scene.shank_crotch_px = at.FullFromSmall(*pair.shank_crotch);
   scene.pivot_px = at.FullFromSmall(pair.pivot);
   scene.pivot_sigma_px = pair.pivot_sigma * at.full_px_per_px();
-  scene.shank_width_px = pair.shank_width * at.full_px_per_px();
+  scene.shank_width_px = WidthOfMembers(pair) * at.full_px_per_px();
   scene.path_sigma_px = at.full_px_per_px();
   scene.quality = pair.quality;
   scene.method = found.method;

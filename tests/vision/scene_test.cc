@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
+#include "vision/scene.h"
+
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -12,10 +14,12 @@
 #include "vision/closed_shape.h"
 #include "vision/flood.h"
 #include "vision/measure.h"
+#include "vision/photo.h"
 #include "vision/png_writer.h"
 #include "vision/refused.h"
 #include "vision/render.h"
 #include "vision/silhouette.h"
+#include "vision/stage_log.h"
 
 namespace bladecurve {
 namespace {
@@ -189,6 +193,21 @@ TEST(FindScene, MeasuresOnEveryBackdrop) {
 }
 
 // Thresholds see the blade without its bevel and agree on that; only the flood sees all of it.
+// The waist of open scissors is wider than the members that cross there.
+TEST(FindScene, TellsTheSameWidthOfMembersAtAnyOpening) {
+  const auto width_at = [](double opening_deg) {
+    SceneSpec spec = SmallScene();
+    spec.theta_rad = opening_deg * kDegree;
+    const fs::path file = ProcessFolder() / "picture.png";
+    WritePng(file, RenderScene(spec).bgr);
+    StageLog log(std::nullopt);
+    return FindScene(Photo::Load(file), {}, {}, &log).shank_width_px;
+  };
+  const double narrow = width_at(20);
+  EXPECT_NEAR(width_at(50), narrow, 0.12 * narrow);
+  EXPECT_NEAR(width_at(80), narrow, 0.12 * narrow);
+}
+
 TEST(FindScene, SeesABevelAsBrightAsThePaper) {
   SceneSpec spec;
   spec.seed = 13;
