@@ -32,9 +32,9 @@ struct ScrewSearch {
   // d image / d plane of the head, of any scale, where it is known how obliquely that is seen: a
   // round head shows as an ellipse of known shape.
   std::optional<Eigen::Matrix2d> view;
-  // Below, nothing is returned: shank edges, grain, cloth and lettering reach 5 by chance. Blade
-  // tips, which are round, reach 13; they must not be within the radius.
-  double least_evidence = 7;
+  // Below, nothing is returned: where no head is seen, shank edges, grain, cloth and lettering seldom
+  // reach 4. Blade tips, which are round, reach 13; they must not be within the radius.
+  double least_evidence = 5;
 };
 
 // The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with
