@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/screw_slot.h"
-
 namespace bladecurve {
 namespace {
 
@@ -76,11 +74,10 @@ PlacePx Combined(const PlacePx& a, const PlacePx& b) {
 }
 
 // By its rim, and by its slot where it has one.
-PlacePx CentreOf(const Screw& screw, const cv::Mat& grey, const ToneCurve& tone) {
+PlacePx CentreOf(const Screw& screw) {
   const PlacePx rim{screw.center_px, screw.covariance_px2 + ShadingCovariance(screw)};
-  const double radius_px = std::sqrt(screw.semi_major_px * screw.semi_minor_px);
-  const std::optional<ScrewSlot> slot = FindSlot(grey, tone, screw.center_px, radius_px);
-  return slot ? Combined(rim, {slot->center_px, slot->covariance_px2}) : rim;
+  if (!screw.slot) return rim;
+  return Combined(rim, {screw.slot->center_px, screw.slot->covariance_px2});
 }
 
 // ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
@@ -162,7 +159,7 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.screw = LookForScrew(grey, scale, search, pivot.point_px);
   }
   if (pivot.screw) {
-    const PlacePx head = CentreOf(*pivot.screw, grey, scale.tone);
+    const PlacePx head = CentreOf(*pivot.screw);
     const PlacePx foot = BelowHead(head.point_px, scale, search.scene);
     pivot.point_px = foot.point_px;
     pivot.covariance_px2 = head.covariance_px2 + foot.covariance_px2;

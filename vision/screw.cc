@@ -93,9 +93,8 @@ WeighedCenter WeighCenters(const cv::Mat& grey,
 
 // What a slot adds to the evidence of a rim: across shanks, grain and cloth hardly ever runs a dark
 // bar from end to end of what looks nearly round.
-double SlotEvidence(const cv::Mat& grey, const ToneCurve& tone, const RimEllipse& rim) {
+double SlotEvidence(const std::optional<ScrewSlot>& slot) {
   constexpr double kSlotted = 2;
-  const std::optional<ScrewSlot> slot = FindSlot(grey, tone, rim.center, rim.MeanRadius());
   return slot && slot->ends_seen ? kSlotted : 0;
 }
 
@@ -111,10 +110,13 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   if (all.empty()) return std::nullopt;
   const FoundRim& best = all.front();
   const double lacking = search.least_evidence - best.evidence;
-  if (lacking > (lacking > 0 ? SlotEvidence(grey, tone, best.fit.rim) : 0)) return std::nullopt;
+  Screw screw;
+  if (lacking > 0) {
+    screw.slot = FindSlot(grey, tone, best.fit.rim.center, best.fit.rim.MeanRadius());
+    if (lacking > SlotEvidence(screw.slot)) return std::nullopt;
+  }
   const RimFit fit = RefineRim(grey, tone, best.fit, search.view);
   const WeighedCenter weighed = WeighCenters(grey, tone, search.view, all, fit);
-  Screw screw;
   screw.center_px = weighed.center;
   screw.covariance_px2 = CenterCovariance(fit, best.fit.support) + weighed.spread;
   screw.semi_major_px = fit.rim.SemiAxes()[1];
@@ -122,6 +124,7 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   screw.angle_rad = fit.rim.MajorAngle();
   screw.support = best.fit.support;
   screw.evidence = best.evidence;
+  if (lacking <= 0) screw.slot = FindSlot(grey, tone, screw.center_px, fit.rim.MeanRadius());
   return screw;
 }
 
