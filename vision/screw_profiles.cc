@@ -72,9 +72,9 @@ std::optional<RimShape> FindCommonShape(const RimProfiles& profiles, const RimRo
   return shape;
 }
 
-// Light that goes with a power (1 or 2) of the distance within the rim and is none beyond, as a lens
-// shows it: the power's mean over a Gaussian. Sharp at the rim, its bend there would be taken for a
-// shift of the rim.
+// Light that goes with a power (1 or 2) of the distance within the rim and is none beyond, as a
+// lens shows it: the power's mean over a Gaussian. Sharp at the rim, its bend there would be taken
+// for a shift of the rim.
 double BlurredPower(double within_px, int power) {
   constexpr double kBlurPx = 1.2;  // lens, pixel and the sampling between pixels
   const double z = within_px / kBlurPx;
