@@ -49,13 +49,13 @@ PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene
   return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 
-// The rim's own scatter cannot tell that light falling from one side moves all of it: over rendered
-// heads of brushed metal the centre is off by 2 % of the radius. Where one side follows something
-// else than the rim, the ellipse is too short across it by as much as its centre is off; 2 % is
-// what a view 11 degrees off the axis explains.
-Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
-  constexpr double kShading = 0.02, kFlattened = 0.02;
-  const double even_px = kShading * screw.semi_major_px;
+// Of what the rim's fit cannot tell: a chamfer not alike all round, a rim not quite round. Over heads
+// rendered elsewhere and brushed ones the centre is off by 1 to 2 % of the radius. Where one side
+// follows something else than the rim, the ellipse is too short across it by as much as its centre
+// is off; 2 % is what a view 11 degrees off the axis explains.
+Eigen::Matrix2d ShapeCovariance(const Screw& screw) {
+  constexpr double kShape = 0.02, kFlattened = 0.02;
+  const double even_px = kShape * screw.semi_major_px;
   const double one_sided_px =
       std::max(0.0, (1 - kFlattened) * screw.semi_major_px - screw.semi_minor_px);
   const Vector2d major(std::cos(screw.angle_rad), std::sin(screw.angle_rad));
@@ -75,7 +75,7 @@ PlacePx Combined(const PlacePx& a, const PlacePx& b) {
 
 // By its rim, and by its slot where it has one.
 PlacePx CentreOf(const Screw& screw) {
-  const PlacePx rim{screw.center_px, screw.covariance_px2 + ShadingCovariance(screw)};
+  const PlacePx rim{screw.center_px, screw.covariance_px2 + ShapeCovariance(screw)};
   if (!screw.slot) return rim;
   return Combined(rim, {screw.slot->center_px, screw.slot->covariance_px2});
 }
