@@ -7,8 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/screw_slot.h"
-
 namespace bladecurve {
 namespace {
 
@@ -51,13 +49,13 @@ PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene
   return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 
-// The rim's own scatter cannot tell that light falling from one side moves all of it: over rendered
-// heads of brushed metal the centre is off by 2 % of the radius. Where one side follows something
-// else than the rim, the ellipse is too short across it by as much as its centre is off; 2 % is
-// what a view 11 degrees off the axis explains.
-Eigen::Matrix2d ShadingCovariance(const Screw& screw) {
-  constexpr double kShading = 0.02, kFlattened = 0.02;
-  const double even_px = kShading * screw.semi_major_px;
+// Of what the rim's fit cannot tell: a chamfer not alike all round, a rim not quite round. Over heads
+// rendered elsewhere and brushed ones the centre is off by 1 to 2 % of the radius. Where one side
+// follows something else than the rim, the ellipse is too short across it by as much as its centre
+// is off; 2 % is what a view 11 degrees off the axis explains.
+Eigen::Matrix2d ShapeCovariance(const Screw& screw) {
+  constexpr double kShape = 0.02, kFlattened = 0.02;
+  const double even_px = kShape * screw.semi_major_px;
   const double one_sided_px =
       std::max(0.0, (1 - kFlattened) * screw.semi_major_px - screw.semi_minor_px);
   const Vector2d major(std::cos(screw.angle_rad), std::sin(screw.angle_rad));
@@ -76,11 +74,10 @@ PlacePx Combined(const PlacePx& a, const PlacePx& b) {
 }
 
 // By its rim, and by its slot where it has one.
-PlacePx CentreOf(const Screw& screw, const cv::Mat& grey, const ToneCurve& tone) {
-  const PlacePx rim{screw.center_px, screw.covariance_px2 + ShadingCovariance(screw)};
-  const double radius_px = std::sqrt(screw.semi_major_px * screw.semi_minor_px);
-  const std::optional<ScrewSlot> slot = FindSlot(grey, tone, screw.center_px, radius_px);
-  return slot ? Combined(rim, {slot->center_px, slot->covariance_px2}) : rim;
+PlacePx CentreOf(const Screw& screw) {
+  const PlacePx rim{screw.center_px, screw.covariance_px2 + ShapeCovariance(screw)};
+  if (!screw.slot) return rim;
+  return Combined(rim, {screw.slot->center_px, screw.slot->covariance_px2});
 }
 
 // ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
@@ -162,7 +159,7 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.screw = LookForScrew(grey, scale, search, pivot.point_px);
   }
   if (pivot.screw) {
-    const PlacePx head = CentreOf(*pivot.screw, grey, scale.tone);
+    const PlacePx head = CentreOf(*pivot.screw);
     const PlacePx foot = BelowHead(head.point_px, scale, search.scene);
     pivot.point_px = foot.point_px;
     pivot.covariance_px2 = head.covariance_px2 + foot.covariance_px2;

@@ -40,18 +40,6 @@ bool Rivals(const RimEllipse& a, const RimEllipse& b) {
   return apart > kSameRim && apart < kSameHead && ratio < kMostLarger && ratio > 1 / kMostLarger;
 }
 
-// The scatter along the rim cannot tell that light falling from one side moves all of it: where
-// part of the rim looks otherwise than the rest, the centre is less certain than the scatter says.
-// A slot takes up to a tenth of the rim without harm.
-Eigen::Matrix2d CenterCovariance(const RimFit& fit, double support) {
-  constexpr double kSlotShare = 0.1;
-  constexpr double kUnevenShift =
-      0.15;  // of the radius, for each share of the rim that does not look like the rest
-  const double uneven = std::max(0.0, 1 - support - kSlotShare);
-  const double shift = kUnevenShift * uneven * fit.rim.MeanRadius();
-  return fit.center_covariance + shift * shift * Eigen::Matrix2d::Identity();
-}
-
 // The centre where several rims compete for one head (a bevelled edge, a lit recess round it):
 // their mean by the odds that their evidence gives them, and how far they part.
 struct WeighedCenter {
@@ -93,9 +81,8 @@ WeighedCenter WeighCenters(const cv::Mat& grey,
 
 // What a slot adds to the evidence of a rim: across shanks, grain and cloth hardly ever runs a dark
 // bar from end to end of what looks nearly round.
-double SlotEvidence(const cv::Mat& grey, const ToneCurve& tone, const RimEllipse& rim) {
+double SlotEvidence(const std::optional<ScrewSlot>& slot) {
   constexpr double kSlotted = 2;
-  const std::optional<ScrewSlot> slot = FindSlot(grey, tone, rim.center, rim.MeanRadius());
   return slot && slot->ends_seen ? kSlotted : 0;
 }
 
@@ -111,17 +98,21 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   if (all.empty()) return std::nullopt;
   const FoundRim& best = all.front();
   const double lacking = search.least_evidence - best.evidence;
-  if (lacking > (lacking > 0 ? SlotEvidence(grey, tone, best.fit.rim) : 0)) return std::nullopt;
+  Screw screw;
+  if (lacking > 0) {
+    screw.slot = FindSlot(grey, tone, best.fit.rim.center, best.fit.rim.MeanRadius());
+    if (lacking > SlotEvidence(screw.slot)) return std::nullopt;
+  }
   const RimFit fit = RefineRim(grey, tone, best.fit, search.view);
   const WeighedCenter weighed = WeighCenters(grey, tone, search.view, all, fit);
-  Screw screw;
   screw.center_px = weighed.center;
-  screw.covariance_px2 = CenterCovariance(fit, best.fit.support) + weighed.spread;
+  screw.covariance_px2 = fit.center_covariance + weighed.spread;
   screw.semi_major_px = fit.rim.SemiAxes()[1];
   screw.semi_minor_px = fit.rim.SemiAxes()[0];
   screw.angle_rad = fit.rim.MajorAngle();
   screw.support = best.fit.support;
   screw.evidence = best.evidence;
+  if (lacking <= 0) screw.slot = FindSlot(grey, tone, screw.center_px, fit.rim.MeanRadius());
   return screw;
 }
 

@@ -10,6 +10,15 @@
 
 namespace bladecurve {
 
+// What the slot of a screw says of its head's centre: it runs through it, and is cut from rim to
+// rim. Independent of the rim, where a chamfer that is bright on one side and dark on the other, or
+// a recess, may lead a fit astray.
+struct ScrewSlot {
+  Eigen::Vector2d center_px;
+  Eigen::Matrix2d covariance_px2;  // much larger along the slot than across it
+  bool ends_seen = false;          // both, at the rim
+};
+
 // The head of the screw or rivet about which the blades turn, as an ellipse.
 struct Screw {
   Eigen::Vector2d center_px;
@@ -17,7 +26,10 @@ struct Screw {
   double semi_major_px = 0, semi_minor_px = 0;
   double angle_rad = 0;  // of the major axis, from +x towards +y (down)
   double support = 0;    // share of the rim that is seen, 0 to 1
-  double evidence = 0;   // ln of the odds against chance, at least ScrewSearch::least_evidence
+  // ln of the odds against chance by the rim alone; at least ScrewSearch::least_evidence, or less
+  // by what a slot adds.
+  double evidence = 0;
+  std::optional<ScrewSlot> slot;  // if the head has one
 };
 
 // Evidence of a head that need not be looked for any further; shadows and facets of joints

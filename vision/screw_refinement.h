@@ -12,8 +12,9 @@
 namespace bladecurve {
 
 // The rim of a screw's head in linear light at full resolution, all in picture pixels. Shading
-// within the head and the grain of the metal are modelled where that tells the rim better; `view`
-// as in ScrewSearch. `judged` itself where the fit leaves it.
+// within the head and the grain of the metal are modelled where that tells the rim better; the
+// covariance counts also what light from one side does to all of the rim. `view` as in ScrewSearch.
+// `judged` itself, with that covariance, where the fit leaves it.
 [[nodiscard]] RimFit RefineRim(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const RimFit& judged,

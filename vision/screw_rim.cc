@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -26,6 +27,11 @@ constexpr double kRimRelativeWidth = 0.06, kRimLeastWidthPx = 0.5;
 // Semi-axes over the radius begun with; beyond, the fit ran away to something else.
 constexpr double kLeastOfStart = 0.5, kMostOfStart = 1.6;
 
+// Of profile i, as SampleProfiles numbers them.
+double AngleOf(double i, std::size_t count) {
+  return 2 * std::numbers::pi * i / static_cast<double>(count);
+}
+
 void RateSupport(const std::vector<RimMatch>& matches,
                  const RimUpdate& update,
                  double radius,
@@ -43,12 +49,33 @@ void RateSupport(const std::vector<RimMatch>& matches,
   int in_third =
       std::accumulate(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(third), 0);
   int least = in_third;
+  std::size_t least_from = 0;
   for (std::size_t i = 0; i < count; ++i) {
     in_third += seen[(i + third) % count] - seen[i];
-    least = std::min(least, in_third);
+    if (in_third >= least) continue;
+    least = in_third;
+    least_from = i + 1;
   }
   fit.support = std::accumulate(seen.begin(), seen.end(), 0.0) / static_cast<double>(count);
   fit.third_support = static_cast<double>(least) / static_cast<double>(third);
+  fit.odd_third_rad =
+      AngleOf(static_cast<double>(least_from) + 0.5 * static_cast<double>(third), count);
+}
+
+double OneSided(const RimProfiles& profiles) {
+  constexpr double kClearPx = 1.25;  // of the rim's blur
+  const auto taps = static_cast<Eigen::Index>((profiles.t.array() <= -kClearPx).count());
+  const Eigen::VectorXd inside = profiles.values.leftCols(taps).rowwise().mean();
+  const Eigen::Vector2d harmonic = profiles.jacobian.leftCols<2>().transpose() * inside;
+  return 2 * harmonic.norm() / (inside.sum() + 1e-12);
+}
+
+// A third of the rim loses its say.
+void LeaveOut(double middle_rad, std::vector<RimMatch>& matches) {
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    const double apart = AngleOf(static_cast<double>(i), matches.size()) - middle_rad;
+    if (std::cos(apart) > 0.5) matches[i].precision = 0;
+  }
 }
 
 RimEllipse Changed(const RimEllipse& rim, const Vector5d& change) {
@@ -68,10 +95,11 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
                              const RimFitOptions& options) {
   const double start_radius = start.MeanRadius();
   RimFit fit{start, Eigen::Matrix2d::Identity()};
+  RimProfiles profiles;
   double half_px = options.first_half_px;
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     const bool settling = 2 * iteration < options.iterations;  // half the profiles will do
-    const RimProfiles profiles =
+    profiles =
         SampleProfiles(picture,
                        fit.rim,
                        {half_px, options.most_profiles / (settling ? 2 : 1), options.flat_window});
@@ -79,6 +107,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
     if (!matches) return std::nullopt;
     const bool in_grain = options.grain && !settling;
     if (in_grain) MatchInGrain(profiles, *matches);
+    if (options.left_out_rad) LeaveOut(*options.left_out_rad, matches->each);
     RimUpdate update = FitShifts(profiles,
                                  matches->each,
                                  fit.rim,
@@ -99,6 +128,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
       break;
     half_px = std::max(options.last_half_px, kShrink * half_px);
   }
+  fit.one_sided = OneSided(profiles);
   return fit;
 }
 

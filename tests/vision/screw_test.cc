@@ -280,6 +280,28 @@ TEST(FindScrew, HardlyVisibleHeadsAreLeftAlone) {
   }
 }
 
+// Found, if its rim's evidence falls short of what is asked by that much?
+bool FoundShortBy(double lacking, const HeadSpec& head) {
+  const cv::Mat grey = RenderHead(head);
+  ScrewSearch search = SearchAround(head.center_px, head.semi_major_px);
+  search.least_evidence = 0;
+  const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+  EXPECT_TRUE(screw) << "seed " << head.seed;
+  if (!screw) return false;
+  search.least_evidence = screw->evidence + lacking;
+  return FindScrew(grey, SrgbToneCurve(), search).has_value();
+}
+
+TEST(FindScrew, ASlotMakesUpForAFaintRimAndNothingElseDoes) {
+  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+    HeadSpec head = Dressed(RandomHead(20, seed), Look::kSlotted);
+    EXPECT_TRUE(FoundShortBy(1.9, head)) << "slotted, seed " << seed;
+    EXPECT_FALSE(FoundShortBy(2.1, head)) << "slotted, seed " << seed;
+    head.slot = 0;
+    EXPECT_FALSE(FoundShortBy(0.1, head)) << "plain, seed " << seed;
+  }
+}
+
 TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {
   const ToneCurve tone = SrgbToneCurve();
   const cv::Mat tiny(1, 1, CV_8UC1, cv::Scalar(7)), flat(50, 300, CV_8UC1, cv::Scalar(255));
