@@ -26,7 +26,7 @@ constexpr double kJudgedRadiusPx = 14;
 // chance, has the binomial tail exp(-n KL(support || p)) (Chernoff), the "number of false alarms"
 // of Desolneux, Moisan and Morel. Shape: photographs are taken nearly from above. Contrast: how
 // much the rim stands out of its surroundings; its weight is empirical, chosen on photographs where
-// it parts screws (7 and more) from shank edges, grain and lettering (below 5).
+// it parts screws (5 and more) from shank edges, grain and lettering (seldom 4).
 double Evidence(double support, double radius_judged_px, double axis_ratio, double contrast_score) {
   constexpr double kChance = 0.35;           // of support, after the fit has chosen the best place
   constexpr double kIndependentPx = 2.5;     // smoothing along the rim
