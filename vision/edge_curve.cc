@@ -6,6 +6,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -27,6 +30,95 @@ Terms LegendreTerms(double t) {
   for (int n = 1; n + 1 < kTerms; ++n)
     terms[n + 1] = ((2 * n + 1) * t * terms[n] - n * terms[n - 1]) / (n + 1);
   return terms;
+}
+
+// A run of inlying points without a gap, as indices: first to last, both inside.
+struct Run {
+  size_t first = 0, last = 0;
+
+  [[nodiscard]] size_t Size() const { return last - first + 1; }
+};
+
+std::vector<Run> RunsOf(const std::vector<LocatedEdgePoint>& points) {
+  constexpr double kGapPx = 8;  // shorter ones are single outliers
+  std::vector<Run> runs;
+  for (size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].inlier) continue;
+    const bool joined =
+        !runs.empty() && (points[i].point_px - points[runs.back().last].point_px).norm() < kGapPx;
+    if (joined) {
+      runs.back().last = i;
+    } else {
+      runs.push_back({i, i});
+    }
+  }
+  return runs;
+}
+
+// The course of an edge over a stretch of it, in the frame of the stretch's chord: how far across
+// the chord a cubic of the place along it lies.
+class Course {
+ public:
+  Course(const std::vector<LocatedEdgePoint>& points, const Run& stretch)
+      : origin_px_(points[stretch.first].point_px),
+        along_(points[stretch.last].point_px - origin_px_),
+        across_(Eigen::Vector2d(-along_.y(), along_.x()).normalized()) {
+    Eigen::Matrix4d normal = 1e-9 * Eigen::Matrix4d::Identity();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+    for (size_t i = stretch.first; i <= stretch.last; ++i) {
+      if (!points[i].inlier) continue;
+      const Eigen::Vector4d row = RowAt(points[i].point_px);
+      normal += row * row.transpose();
+      right += across_.dot(points[i].point_px - origin_px_) * row;
+    }
+    cubic_ = normal.ldlt().solve(right);
+  }
+
+  // Median distance of the inlying points of a stretch.
+  [[nodiscard]] double DistanceOf(const std::vector<LocatedEdgePoint>& points,
+                                  const Run& stretch) const {
+    std::vector<double> distances;
+    for (size_t i = stretch.first; i <= stretch.last; ++i) {
+      if (points[i].inlier) distances.push_back(Distance(points[i].point_px));
+    }
+    return MedianAbsolute(distances);
+  }
+
+ private:
+  [[nodiscard]] double Distance(const Eigen::Vector2d& point_px) const {
+    return across_.dot(point_px - origin_px_) - cubic_.dot(RowAt(point_px));
+  }
+
+  [[nodiscard]] Eigen::Vector4d RowAt(const Eigen::Vector2d& point_px) const {
+    const double t = 2 * along_.dot(point_px - origin_px_) / along_.squaredNorm() - 1;
+    return {1, t, t * t, t * t * t};
+  }
+
+  Eigen::Vector2d origin_px_, along_, across_;
+  Eigen::Vector4d cubic_;
+};
+
+// Whether a run beyond a gap leaves the course of the stretch before the gap. Longer than the gap,
+// it is the edge's own bend; too far out for a cubic to be continued, nobody knows.
+bool Leaves(const std::vector<LocatedEdgePoint>& points, const Run& stretch, const Run& run) {
+  constexpr double kTolerance = 0.6;  // px; what a cubic continued over a gap may be off
+  constexpr double kSpreads = 4;
+  constexpr double kFarthest = 0.5;  // of the stretch's length, from it to the run's far end
+  const auto apart = [&](size_t a, size_t b) {
+    return (points[a].point_px - points[b].point_px).norm();
+  };
+  const double gap_px =
+      run.first > stretch.last ? apart(stretch.last, run.first) : apart(run.last, stretch.first);
+  const double run_px = apart(run.first, run.last);
+  if (run_px >= gap_px) return false;
+  if (gap_px + run_px > kFarthest * apart(stretch.first, stretch.last)) return false;
+  const Course course(points, stretch);
+  return course.DistanceOf(points, run) >
+         kTolerance + kSpreads * course.DistanceOf(points, stretch);
+}
+
+void Reject(size_t first, size_t end, std::vector<LocatedEdgePoint>& points) {
+  for (size_t i = first; i < end; ++i) points[i].inlier = false;
 }
 
 double PlaceOf(size_t i, size_t count) {
@@ -60,6 +152,36 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
     }
   }
   return distances;
+}
+
+bool RejectDetachedEnds(std::vector<LocatedEdgePoint>& points) {
+  constexpr double kMost =
+      0.5;  // of the points; a shorter stretch does not say how an edge goes on
+  const std::vector<Run> runs = RunsOf(points);
+  if (runs.size() < 2) return false;
+  const auto longest = std::max_element(
+      runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.Size() < b.Size(); });
+  if (static_cast<double>(longest->Size()) < kMost * static_cast<double>(points.size()))
+    return false;
+  Run known = *longest;
+  bool rejected = false;
+  for (auto next = std::next(longest); next != runs.end(); ++next) {
+    if (Leaves(points, known, *next)) {
+      Reject(next->first, points.size(), points);
+      rejected = true;
+      break;
+    }
+    known.last = next->last;
+  }
+  for (auto before = std::make_reverse_iterator(longest); before != runs.rend(); ++before) {
+    if (Leaves(points, known, *before)) {
+      Reject(0, before->last + 1, points);
+      rejected = true;
+      break;
+    }
+    known.first = before->first;
+  }
+  return rejected;
 }
 
 }  // namespace bladecurve

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -120,7 +121,32 @@ class BladeLocator {
     }
   }
 
+  // Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
+  // shadows, and both borders the bands' inner sides.
+  void LeaveShadows(LocatedEdge* left, LocatedEdge* right) {
+    const auto banded = [](const LocatedEdge& edge) {
+      return HasDarkBand(edge) && edge.rival_px < 0;
+    };
+    if (!banded(*left) || !banded(*right)) return;
+    const std::optional<LocatedEdge> l = AtRival(*left, true), r = AtRival(*right, false);
+    if (!l || !r) return;
+    *left = *l;
+    *right = *r;
+  }
+
  private:
+  [[nodiscard]] std::optional<LocatedEdge> AtRival(const LocatedEdge& edge, bool left) {
+    constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
+    EdgeGuess guess = GuessFor(scene_, left);
+    guess.path_px = edge.rival_path_px;
+    guess.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
+    try {
+      return LocateEdge(photo_.grey(), tone_, guess, options_);
+    } catch (const Refused&) {
+      return std::nullopt;
+    }
+  }
+
   // Where grey hides the edge, the mixture of the colours in which blade and background differ most
   // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
   // the step at the edge alone.
@@ -183,6 +209,8 @@ BladeEdges LocateBlades(const Photo& photo,
       edges.lower = locator.LocateOrTrace(!upper_on_left);
     }
   });
+  locator.LeaveShadows(upper_on_left ? &edges.upper : &edges.lower,
+                       upper_on_left ? &edges.lower : &edges.upper);
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
   return edges;

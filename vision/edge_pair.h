@@ -14,9 +14,10 @@ struct BladeEdges {
   LocatedEdge upper, lower;
 };
 
-// Locates both edges beside the traces of the scene, at full resolution along the blades only. The
-// lower edge may be the trace itself where nothing better is to be had: ambiguity 1, sigma as large
-// as the trace's. Throws Refused as LocateEdge does for the upper edge.
+// Locates both edges beside the traces of the scene, at full resolution along the blades only. Dark
+// bands along both are taken for shadows. The lower edge may be the trace itself where nothing
+// better is to be had: ambiguity 1, sigma as large as the trace's. Throws Refused as LocateEdge
+// does for the upper edge.
 [[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
                                       const ScaleResult& scale,
                                       const Scene& scene,

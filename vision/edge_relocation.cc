@@ -69,7 +69,6 @@ std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
                                            const LocatedBlade& blade,
                                            const LocatedBlade& other) {
   constexpr double kNearest = 5, kOfWay = 0.35;  // px; of the way that the edge would move
-  constexpr double kClear = 0.5;                 // ambiguity
   EdgeGuess guess;
   for (const LocatedEdgePoint& p : other.edge.points) {
     if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
@@ -86,27 +85,73 @@ std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
     return std::nullopt;
   }
   found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
-  if (found.blade.edge.ambiguity > kClear || !AreAlike(found.asymmetry)) return std::nullopt;
-  return found;
+  return AreAlike(found.asymmetry) ? std::optional(std::move(found)) : std::nullopt;
 }
 
-}  // namespace
+constexpr double kClear = 0.5;  // ambiguity
+constexpr double kVague = 1;    // px of common uncertainty
 
-void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades) {
-  if (pivot->source == "geometry" || !view.scale.sheet || !AreUnlike(pivot->asymmetry)) return;
+bool IsClear(const LocatedEdge& edge) {
+  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVague;
+}
+
+bool IsDoubtful(const LocatedEdge& edge) {
+  constexpr double kDoubt = 0.75;  // ambiguity
+  return edge.ambiguity > kDoubt || edge.common_sigma_px > kVague;
+}
+
+void Replace(Relocated&& found, LocatedBlade* blade, Pivot* pivot) {
+  *blade = std::move(found.blade);
+  pivot->asymmetry = found.asymmetry;
+}
+
+// Edges that do not mirror each other: the one that stands out more clearly where the other puts
+// it.
+void RelocateClearerOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
   const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
-  std::optional<Relocated> upper =
-      LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
-  std::optional<Relocated> lower =
-      LookWhereMirrored(view, line, *pivot, blades->lower, blades->upper);
+  const auto look = [&](const LocatedBlade& blade, const LocatedBlade& other) {
+    std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, blade, other);
+    if (found && found->blade.edge.ambiguity > kClear) found.reset();
+    return found;
+  };
+  std::optional<Relocated> upper = look(blades->upper, blades->lower);
+  std::optional<Relocated> lower = look(blades->lower, blades->upper);
   const auto clearer = [](const std::optional<Relocated>& found, const LocatedBlade& before) {
     return found && Contrast(found->blade.edge) > Contrast(before.edge);
   };
   const bool upper_clearer = clearer(upper, blades->upper);
   if (upper_clearer == clearer(lower, blades->lower)) return;  // either, or neither
-  Relocated& found = upper_clearer ? *upper : *lower;
-  (upper_clearer ? blades->upper : blades->lower) = std::move(found.blade);
-  pivot->asymmetry = found.asymmetry;
+  if (upper_clearer) {
+    Replace(*std::move(upper), &blades->upper, pivot);
+  } else {
+    Replace(*std::move(lower), &blades->lower, pivot);
+  }
+}
+
+// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
+void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
+  constexpr double kLess = 0.75;  // of the ambiguity before
+  const bool is_upper = IsDoubtful(blades->upper.edge);
+  LocatedBlade& doubtful = is_upper ? blades->upper : blades->lower;
+  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
+  if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
+  const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
+  std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, doubtful, other);
+  if (!found) return;
+  const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
+  if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
+    Replace(*std::move(found), &doubtful, pivot);
+}
+
+}  // namespace
+
+void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades) {
+  if (pivot->source == "geometry" || !view.scale.sheet) return;
+  if (AreUnlike(pivot->asymmetry)) {
+    RelocateClearerOne(view, pivot, blades);
+  } else {
+    RelocateDoubtfulOne(view, pivot, blades);
+  }
 }
 
 }  // namespace bladecurve

@@ -125,6 +125,7 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
       edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
     }
   }
+  if (RejectDetachedEnds(edge.points)) scatter = Detrend(edge.points, spacing_px);
   std::vector<double> inlying;
   for (size_t i = 0; i < scatter.size(); ++i) {
     edge.points[i].sigma_px *= excess;

@@ -57,6 +57,19 @@ struct Measured {
         EdgeAsymmetry({PointsOf(blades.upper), PointsOf(blades.lower)}, pivot.point_px);
   }
 
+  // As if nothing beside the edge looked like a border.
+  static void MakeClear(LocatedBlade* blade) {
+    blade->edge.ambiguity = 0;
+    blade->edge.common_sigma_px = 0.1;
+  }
+
+  // As if the edge had been lost and were the trace of the scene.
+  void Lose(LocatedBlade* blade, double outwards_px) {
+    Misplace(blade, outwards_px);
+    blade->edge.ambiguity = 1;
+    blade->edge.common_sigma_px = outwards_px;
+  }
+
   // As if the edge had been taken for a faint line of the background.
   void Misplace(LocatedBlade* blade, double outwards_px) {
     constexpr double kFaint = 0.01;
@@ -122,8 +135,37 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
   }
 }
 
+// Too little aside to be told by the mirror alone, 0.018 of the blades' length.
+constexpr double kLittlePx = 3;
+
+TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
+  constexpr double kClosePx = 0.3;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& lost = upper ? measured.blades.upper : measured.blades.lower;
+    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    measured.MakeClear(upper ? &measured.blades.lower : &measured.blades.upper);
+    measured.Lose(&lost, kLittlePx);
+    ASSERT_GT(FarFrom(truth, lost), 0.7 * kLittlePx);
+    measured.Relocate();
+    EXPECT_LT(FarFrom(truth, lost), kClosePx) << upper;
+    EXPECT_LT(lost.edge.common_sigma_px, kLittlePx) << upper;
+  }
+}
+
+TEST(RelocateUnlikeEdges, TakesNoDoubtfulEdgeForAMirror) {
+  Measured measured{SceneWithMarkers()};
+  measured.Lose(&measured.blades.upper, kLittlePx);
+  measured.Lose(&measured.blades.lower, kLittlePx);
+  const std::vector<Vector2d> before = PointsOf(measured.blades.lower);
+  measured.Relocate();
+  EXPECT_EQ(PointsOf(measured.blades.lower), before);
+}
+
 TEST(RelocateUnlikeEdges, LeavesEdgesThatMirrorEachOther) {
   Measured measured{SceneWithMarkers()};
+  for (LocatedBlade* blade : {&measured.blades.upper, &measured.blades.lower})
+    measured.MakeClear(blade);
   const std::vector<Vector2d> before = PointsOf(measured.blades.upper);
   measured.Relocate();
   EXPECT_EQ(PointsOf(measured.blades.upper), before);

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// Points at an edge's ends that belong to another line.
+#include "vision/edge_curve.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "vision/edge_images.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr int kLength = 300;      // px, one point each
+constexpr double kNoisePx = 0.1;  // of a point
+
+// A cutting edge with a curve of its own; what leaves it is added to each point's offset. Points
+// from `lost` on, `gap` of them, are missing.
+std::vector<LocatedEdgePoint> Edge(int lost, int gap, const std::function<double(int)>& leaves_px) {
+  testing::Gaussian noise(7);
+  std::vector<LocatedEdgePoint> points;
+  for (int i = 0; i < kLength; ++i) {
+    const double t = static_cast<double>(i) / kLength;
+    LocatedEdgePoint point;
+    point.normal = {0, 1};
+    point.point_px = {i, 20 * t * t - 8 * t * t * t + kNoisePx * noise() + leaves_px(i)};
+    point.sigma_px = kNoisePx;
+    point.inlier = i < lost || i >= lost + gap;
+    points.push_back(point);
+  }
+  return points;
+}
+
+int InliersBetween(const std::vector<LocatedEdgePoint>& points, int first, int end) {
+  return static_cast<int>(std::count_if(points.begin() + first,
+                                        points.begin() + end,
+                                        [](const LocatedEdgePoint& p) { return p.inlier; }));
+}
+
+constexpr int kGap = 20, kLost = 270, kBeyond = kLost + kGap;
+
+TEST(RejectDetachedEnds, FewPointsThatLeaveTheCurveBeyondAGapAreStrays) {
+  for (const double off_px : {-2.0, 2.0}) {
+    auto points = Edge(kLost, kGap, [&](int i) { return i >= kBeyond ? off_px : 0; });
+    EXPECT_TRUE(RejectDetachedEnds(points)) << off_px;
+    EXPECT_EQ(InliersBetween(points, kBeyond, kLength), 0) << off_px;
+    EXPECT_EQ(InliersBetween(points, 0, kLost), kLost) << off_px;
+  }
+}
+
+TEST(RejectDetachedEnds, SoAreThoseBeforeAGapAtTheCrossing) {
+  auto points = Edge(10, kGap, [](int i) { return i < 10 ? 2.0 : 0; });
+  EXPECT_TRUE(RejectDetachedEnds(points));
+  EXPECT_EQ(InliersBetween(points, 0, 10), 0);
+  EXPECT_EQ(InliersBetween(points, 10 + kGap, kLength), kLength - 10 - kGap);
+}
+
+TEST(RejectDetachedEnds, PointsThatGoOnWithTheCurveStay) {
+  auto points = Edge(kLost, kGap, [](int) { return 0.0; });
+  EXPECT_FALSE(RejectDetachedEnds(points));
+  EXPECT_EQ(InliersBetween(points, 0, kLength), kLength - kGap);
+}
+
+TEST(RejectDetachedEnds, ABendLongerThanTheGapIsTheEdgesOwn) {
+  constexpr int kFrom = 240;
+  auto points = Edge(kFrom, kGap, [](int i) { return i >= kFrom ? 0.1 * (i - kFrom) : 0; });
+  EXPECT_FALSE(RejectDetachedEnds(points));
+  EXPECT_EQ(InliersBetween(points, kFrom, kLength), kLength - kFrom - kGap);
+}
+
+TEST(RejectDetachedEnds, WithoutAGapNothingIsDetached) {
+  auto points = Edge(kLength, 0, [](int i) { return i >= kBeyond ? 2.0 : 0; });
+  EXPECT_FALSE(RejectDetachedEnds(points));
+}
+
+}  // namespace
+}  // namespace bladecurve

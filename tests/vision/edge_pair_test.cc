@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// What both edges together say of the dark bands beside them.
+#include "vision/edge_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <vector>
+
+#include "process_folder.h"
+#include "vision/png_writer.h"
+#include "vision/render.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr bool kUpperOnLeft = true;  // the scene's tips lie to the right
+
+// Wide open in low sun from behind the rings: both blades throw their shadows into the gap.
+SceneSpec SceneWithShadowsInTheGap(double elevation_rad) {
+  SceneSpec spec;
+  spec.width = 1600;
+  spec.height = 1200;
+  spec.theta_rad = 75 * kDegree;
+  spec.heading_rad = 0;
+  spec.scissors.upper_on_top = false;
+  spec.scissors.bevel_mm = 0;
+  spec.light.direction_rad = std::numbers::pi;
+  spec.light.elevation_rad = elevation_rad;
+  spec.light.shadow = 0.9;
+  spec.light.shadow_blur_mm = 0.15;
+  spec.light.glint = 0;
+  return spec;
+}
+
+// Median distance of the inlying points from the true edge, px.
+double FarFrom(const EdgeTruth& truth, const LocatedEdge& edge) {
+  std::vector<double> off;
+  for (const LocatedEdgePoint& p : edge.points) {
+    if (!p.inlier) continue;
+    double nearest = 1e9;
+    for (const Vector2d& q : truth.px) nearest = std::min(nearest, (p.point_px - q).norm());
+    off.push_back(nearest);
+  }
+  std::nth_element(
+      off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2];
+}
+
+TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
+  constexpr double kClosePx = 0.6;  // half the truth's spacing, and noise
+  for (const double elevation_rad : {45 * kDegree, 35 * kDegree}) {
+    const SceneSpec spec = SceneWithShadowsInTheGap(elevation_rad);
+    const std::filesystem::path file = ProcessFolder() / "picture.png";
+    WritePng(file, RenderScene(spec).bgr);
+    const Photo photo = Photo::Load(file);
+    ScaleOptions options;
+    options.mm_per_px = spec.camera.mm_per_px;
+    const ScaleResult scale = FindScale(photo, options);
+    StageLog log;
+    const Scene scene = FindScene(photo, scale.markers, {}, &log);
+    const BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper), kClosePx) << elevation_rad;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower), kClosePx) << elevation_rad;
+  }
+}
+
+}  // namespace
+}  // namespace bladecurve
