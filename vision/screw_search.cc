@@ -87,8 +87,8 @@ class Octave {
   // The rims, the best one polished unless another octave has one so much better that this cannot
   // help. None where the best is round on one side only: a tip, a corner.
   [[nodiscard]] std::vector<FoundRim> Polished(double most_preference) const {
-    constexpr double kPromising = 2;  // evidence that is worth a second look
-    constexpr double kMostGain = 15;  // of preference by polishing, in 97 % of heads
+    constexpr double kPromising = -2;  // evidence from which on a second look may find a head
+    constexpr double kMostGain = 15;   // of preference by polishing, in 97 % of heads
     if (rims_.empty()) return {};
     std::vector<FoundRim> rims = rims_;
     FoundRim best = rims.front();
