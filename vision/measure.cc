@@ -106,7 +106,7 @@ void CollectWarnings(const Scene& scene,
                      const Blades& blades,
                      std::vector<std::string>* warnings) {
   constexpr double kSeveralTransitions = 0.5;
-  constexpr double kSlanted = 0.1;
+  constexpr double kSlanted = 0.04;  // rendered scissors stay below 0.015
   *warnings = scene.warnings;
   warnings->insert(warnings->end(), map.warnings().begin(), map.warnings().end());
   if (pivot.source == "geometry") warnings->push_back("pivot_not_seen");

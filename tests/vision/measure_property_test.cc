@@ -151,11 +151,12 @@ Change Noisy(double grey) {
           Stays};
 }
 
-PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px) {
+PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHints& hints = {}) {
   const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
   MeasureOptions options;
   options.scale.mm_per_px = mm_per_px;
+  options.hints = hints;
   return MeasurePhoto(file, options);
 }
 
@@ -229,6 +230,20 @@ TEST_F(RenderedPhotograph, ScalesOrIsDoubtedWhenEnlargedTwice) {
   const auto& warnings = after.warnings;
   if (std::find(warnings.begin(), warnings.end(), "upper_edge_ambiguous") != warnings.end()) return;
   ExpectSame(*before_, after, change, picture_->size(), 2);
+}
+
+// Each edge passes the pivot as far off as the other; a shadow taken for one of them does not.
+TEST_F(RenderedPhotograph, IsDoubtedWhereOneEdgePassesThePivotFartherOff) {
+  const Vector2d across(-before_->axis_px.y(), before_->axis_px.x());
+  const double length = (before_->upper_end_px - before_->pivot_px).norm();
+  const auto asymmetric = [&](double share) {
+    SceneHints hints;
+    hints.pivot_px = before_->pivot_px + share * length * across;
+    const auto warnings = Measure(*picture_, kMmPerPx, hints).warnings;
+    return std::find(warnings.begin(), warnings.end(), "blades_asymmetric") != warnings.end();
+  };
+  EXPECT_FALSE(asymmetric(0.01));
+  EXPECT_TRUE(asymmetric(0.03));
 }
 
 TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderAnotherExposure) {
