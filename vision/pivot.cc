@@ -49,10 +49,10 @@ PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene
   return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
 }
 
-// Of what the rim's fit cannot tell: a chamfer not alike all round, a rim not quite round. Over heads
-// rendered elsewhere and brushed ones the centre is off by 1 to 2 % of the radius. Where one side
-// follows something else than the rim, the ellipse is too short across it by as much as its centre
-// is off; 2 % is what a view 11 degrees off the axis explains.
+// Of what the rim's fit cannot tell: a chamfer not alike all round, a rim not quite round. Over
+// heads rendered elsewhere and brushed ones the centre is off by 1 to 2 % of the radius. Where one
+// side follows something else than the rim, the ellipse is too short across it by as much as its
+// centre is off; 2 % is what a view 11 degrees off the axis explains.
 Eigen::Matrix2d ShapeCovariance(const Screw& screw) {
   constexpr double kShape = 0.02, kFlattened = 0.02;
   const double even_px = kShape * screw.semi_major_px;

@@ -44,8 +44,8 @@ struct ScrewSearch {
   // d image / d plane of the head, of any scale, where it is known how obliquely that is seen: a
   // round head shows as an ellipse of known shape.
   std::optional<Eigen::Matrix2d> view;
-  // Below, nothing is returned: where no head is seen, shank edges, grain, cloth and lettering seldom
-  // reach 4. Blade tips, which are round, reach 13; they must not be within the radius.
+  // Below, nothing is returned: where no head is seen, shank edges, grain, cloth and lettering
+  // seldom reach 4. Blade tips, which are round, reach 13; they must not be within the radius.
   double least_evidence = 5;
 };
 
