@@ -30,10 +30,10 @@ struct Scene {
   Eigen::Vector2d shank_crotch_px;  // the concavity behind the pivot, between the shanks
   Eigen::Vector2d pivot_px;         // where the members cross
   double pivot_sigma_px = 0;
-  double shank_width_px = 0;
-  double path_sigma_px = 0;  // how far off the paths may be
-  double quality = 0;        // 0 to 1
-  std::string method;        // the rung of the ladder that gave it
+  double shank_width_px = 0;  // of the members where they cross, across each
+  double path_sigma_px = 0;   // how far off the paths may be
+  double quality = 0;         // 0 to 1
+  std::string method;         // the rung of the ladder that gave it
   std::vector<std::string> warnings;
 };
 

@@ -49,7 +49,6 @@ bool SameRim(const RimEllipse& rim, const RimEllipse& start) {
 struct RefinedRim {
   RimFitOptions options;
   RimFit fit;
-  double one_sided = 0;  // of the light, as the fit with no shading says
 };
 
 RimFitOptions PlainOptions(double radius) {
@@ -83,7 +82,7 @@ constexpr double kDrawnAsidePx[kMostShading + 1] = {3, 1, 0.3};
 double Doubt(const RefinedRim& rim, const View& view) {
   constexpr double kMost = 6;  // a view may be more oblique
   const double sigmas = (1 - rim.fit.rim.AxisRatioFromAbove(view)) / kUsualFlattening;
-  const double drawn_px = kDrawnAsidePx[rim.options.shading] * rim.one_sided;
+  const double drawn_px = kDrawnAsidePx[rim.options.shading] * rim.fit.one_sided;
   return std::log(Scatter(rim.fit) + 2 * drawn_px * drawn_px) +
          std::min(0.5 * sigmas * sigmas, kMost);
 }
@@ -92,12 +91,12 @@ constexpr double kLeastShadedPx = 10;  // in smaller heads too little lies withi
 
 // Light falls from one side, more than grain makes believe (that does the less the longer the rim),
 // or has led the fit astray so far that a third of the rim no longer looks like the rest.
-bool LitFromOneSide(const RefinedRim& rim) {
+bool LitFromOneSide(const RimFit& fit) {
   constexpr double kGrainPx = 0.3, kLeast = 0.015;
   constexpr double kLeastThird = 0.75;  // small heads look that uneven by noise
-  const double radius = rim.fit.rim.MeanRadius();
-  return rim.one_sided > kLeast + kGrainPx / radius ||
-         (radius > kLeastShadedPx && rim.fit.third_support < kLeastThird);
+  const double radius = fit.rim.MeanRadius();
+  return fit.one_sided > kLeast + kGrainPx / radius ||
+         (radius > kLeastShadedPx && fit.third_support < kLeastThird);
 }
 
 std::optional<RefinedRim> Fit(const cv::Mat& light, const RimEllipse& start, int degree) {
@@ -105,21 +104,21 @@ std::optional<RefinedRim> Fit(const cv::Mat& light, const RimEllipse& start, int
   const RimFitOptions options = degree > 0 ? ShadedOptions(radius, degree) : PlainOptions(radius);
   const std::optional<RimFit> fit = FitRim(light, start, options);
   if (!fit || !SameRim(fit->rim, start)) return std::nullopt;
-  return RefinedRim{options, *fit, fit->one_sided};
+  return RefinedRim{options, *fit};
 }
 
-// The fit with no shading, and where light falls from one side also those by degrees; those that
-// ran away are left out.
+// The fit with no shading, and where light falls from one side, as that fit says for all, also
+// those by degrees; those that ran away are left out.
 std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& start) {
   const std::optional<RefinedRim> plain = Fit(light, start, 0);
   std::vector<RefinedRim> kept;
   if (plain) kept.push_back(*plain);
-  if (start.MeanRadius() < kLeastShadedPx || (plain && !LitFromOneSide(*plain))) return kept;
+  if (start.MeanRadius() < kLeastShadedPx || (plain && !LitFromOneSide(plain->fit))) return kept;
   const auto shaded = ParallelMap(kMostShading, [&](int i) { return Fit(light, start, i + 1); });
   for (const std::optional<RefinedRim>& rim : shaded) {
     if (!rim) continue;
     kept.push_back(*rim);
-    kept.back().one_sided = kept.front().one_sided;
+    kept.back().fit.one_sided = kept.front().fit.one_sided;
   }
   return kept;
 }
@@ -191,7 +190,7 @@ double UnevenVariance(const RimFit& judged, double radius) {
 // What the scatter along the rim cannot tell: px^2 of one coordinate.
 double UnseenVariance(const RefinedRim& refined, const RimFit& judged) {
   const double radius = refined.fit.rim.MeanRadius();
-  if (!LitFromOneSide(refined)) return UnevenVariance(judged, radius);
+  if (!LitFromOneSide(refined.fit)) return UnevenVariance(judged, radius);
   // The border of a lit chamfer, followed where the rim does not look like the rest, draws the
   // centre by about a pixel; a chamfer that is not resolved does also where all looks alike. Both
   // chosen to hold 95 % of rendered heads of 10 to 60 px whatever the lamp.

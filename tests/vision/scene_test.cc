@@ -192,7 +192,6 @@ TEST(FindScene, MeasuresOnEveryBackdrop) {
   }
 }
 
-// Thresholds see the blade without its bevel and agree on that; only the flood sees all of it.
 // The waist of open scissors is wider than the members that cross there.
 TEST(FindScene, TellsTheSameWidthOfMembersAtAnyOpening) {
   const auto width_at = [](double opening_deg) {
@@ -208,6 +207,7 @@ TEST(FindScene, TellsTheSameWidthOfMembersAtAnyOpening) {
   EXPECT_NEAR(width_at(80), narrow, 0.12 * narrow);
 }
 
+// Thresholds see the blade without its bevel and agree on that; only the flood sees all of it.
 TEST(FindScene, SeesABevelAsBrightAsThePaper) {
   SceneSpec spec;
   spec.seed = 13;
