@@ -87,6 +87,7 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   fit_options.blur_px = options.blur_px.value_or(chosen.blur_px);
   fit_options.blur_known = options.blur_px.has_value();
   fit_options.most_blur_px = options.most_blur_px;
+  fit_options.may_be_softer = options.may_be_softer;
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
   const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);

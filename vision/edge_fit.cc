@@ -130,7 +130,7 @@ class Fitter {
   // A shadow softens the background's side alone; where the blade's slopes too, it is the lens that
   // is softer than the bound.
   [[nodiscard]] bool SoftBeyondBound() const {
-    return blur_ == most_blur_ && slopes_[kBladeSlope] < kFixed;
+    return options_.may_be_softer && blur_ == most_blur_ && slopes_[kBladeSlope] < kFixed;
   }
 
   // The pixels of sample i, the edge lying offsets_[i] out of the path.

@@ -63,6 +63,13 @@ bool Glares(const LocatedEdge& edge, const LocatedEdge& other) {
          other.ambiguity < kOneStep && edge.blur_px < kSharper * other.blur_px;
 }
 
+// Softer than print and the other blade: a shadow along the edge that was taken for blur.
+bool IsTooSoft(const LocatedEdge& edge, const LocatedEdge& other, double most_blur_px) {
+  constexpr double kSofter = 1.5;  // ratio; print and blades lie at about one distance
+  return std::isfinite(most_blur_px) &&
+         edge.blur_px > kSofter * std::max(other.blur_px, most_blur_px);
+}
+
 // A transition beside the edge that could be the border instead, with a dark band between: shadow
 // or bevel.
 bool HasDarkBand(const LocatedEdge& edge) {
@@ -95,6 +102,20 @@ class BladeLocator {
     options_.most_blur_px = MostBlur(scale.markers);
   }
 
+  // Where grey hides the edge, the mixture of the colours in which blade and background differ most
+  // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
+  // the step at the edge alone.
+  [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
+    constexpr double kGain = 1.5;  // times better separated; less is no other picture
+    try {
+      return LocateEdge(photo_.grey(), tone_, guess, options_);
+    } catch (const Refused&) {
+      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
+      return LocateEdgeInView(view, guess);
+    }
+  }
+
   [[nodiscard]] LocatedEdge Locate(bool left) {
     const EdgeGuess guess = GuessFor(scene_, left);
     LocatedEdge edge = InBestChannel(guess);
@@ -109,11 +130,17 @@ class BladeLocator {
     }
   }
 
-  // A glaring blade's edge once more, with the blur that the other blade shows.
+  // What the other blade tells of an edge's blur: a glaring blade's once more, as sharp as the
+  // other; a shadow's, with the bound that print gives.
   [[nodiscard]] LocatedEdge WithBlurOf(const LocatedEdge& other, LocatedEdge edge, bool left) {
-    if (!Glares(edge, other)) return edge;
     EdgeOptions options = options_;
-    options.blur_px = other.blur_px;
+    if (Glares(edge, other)) {
+      options.blur_px = other.blur_px;
+    } else if (IsTooSoft(edge, other, options.most_blur_px)) {
+      options.may_be_softer = false;
+    } else {
+      return edge;
+    }
     try {
       return LocateEdge(photo_.grey(), tone_, GuessFor(scene_, left), options);
     } catch (const Refused&) {
@@ -144,20 +171,6 @@ class BladeLocator {
       return LocateEdge(photo_.grey(), tone_, guess, options_);
     } catch (const Refused&) {
       return std::nullopt;
-    }
-  }
-
-  // Where grey hides the edge, the mixture of the colours in which blade and background differ most
-  // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
-  // the step at the edge alone.
-  [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
-    constexpr double kGain = 1.5;  // times better separated; less is no other picture
-    try {
-      return LocateEdge(photo_.grey(), tone_, guess, options_);
-    } catch (const Refused&) {
-      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
-      return LocateEdgeInView(view, guess);
     }
   }
 
@@ -216,10 +229,11 @@ BladeEdges LocateBlades(const Photo& photo,
   return edges;
 }
 
-LocatedEdge LocateBladeAlong(const Photo& photo, const ScaleResult& scale, const EdgeGuess& guess) {
-  EdgeOptions options;
-  options.most_blur_px = MostBlur(scale.markers);
-  return LocateEdge(photo.grey(), scale.tone, guess, options);
+LocatedEdge LocateBladeAlong(const Photo& photo,
+                             const ScaleResult& scale,
+                             const Scene& scene,
+                             const EdgeGuess& guess) {
+  return BladeLocator(photo, scale, scene).InBestChannel(guess);
 }
 
 }  // namespace bladecurve

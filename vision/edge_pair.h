@@ -23,9 +23,10 @@ struct BladeEdges {
                                       const Scene& scene,
                                       bool upper_on_left);
 
-// The cutting edge along `guess`, as LocateBlades locates one. Throws Refused as LocateEdge does.
+// The cutting edge along `guess`, in grey or else in colours. Throws Refused as LocateEdge does.
 [[nodiscard]] LocatedEdge LocateBladeAlong(const Photo& photo,
                                            const ScaleResult& scale,
+                                           const Scene& scene,
                                            const EdgeGuess& guess);
 
 }  // namespace bladecurve

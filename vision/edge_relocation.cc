@@ -79,7 +79,7 @@ std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
   Relocated found;
   found.blade.on_left = blade.on_left;
   try {
-    found.blade.edge = LocateBladeAlong(view.photo, view.scale, guess);
+    found.blade.edge = LocateBladeAlong(view.photo, view.scale, view.scene, guess);
     TrimToFree(view.photo, view.scene, &found.blade);
   } catch (const Refused&) {
     return std::nullopt;
@@ -100,31 +100,45 @@ bool IsDoubtful(const LocatedEdge& edge) {
   return edge.ambiguity > kDoubt || edge.common_sigma_px > kVague;
 }
 
-void Replace(Relocated&& found, LocatedBlade* blade, Pivot* pivot) {
-  *blade = std::move(found.blade);
+void Replace(const Relocated& found, LocatedBlade* blade, Pivot* pivot) {
+  *blade = found.blade;
   pivot->asymmetry = found.asymmetry;
 }
 
-// Edges that do not mirror each other: the one that stands out more clearly where the other puts
-// it.
+// Whether it is the other blade's mirror image that lies further out.
+bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
+  return blade.on_left ? pivot.asymmetry < 0 : pivot.asymmetry > 0;
+}
+
+// Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
+// other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
+// however clear.
+bool IsBetter(const std::optional<Relocated>& found,
+              const LocatedBlade& blade,
+              bool seen_alone_outside) {
+  constexpr double kClearAlone = 0.6;  // ambiguity
+  if (!found) return false;
+  const LocatedEdge& edge = found->blade.edge;
+  if (seen_alone_outside && edge.ambiguity <= kClearAlone) return true;
+  return edge.ambiguity <= kClear && Contrast(edge) > Contrast(blade.edge);
+}
+
+// Edges that do not mirror each other: the one that is better seen where the other puts it.
 void RelocateClearerOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
   const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
-  const auto look = [&](const LocatedBlade& blade, const LocatedBlade& other) {
-    std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, blade, other);
-    if (found && found->blade.edge.ambiguity > kClear) found.reset();
-    return found;
-  };
-  std::optional<Relocated> upper = look(blades->upper, blades->lower);
-  std::optional<Relocated> lower = look(blades->lower, blades->upper);
-  const auto clearer = [](const std::optional<Relocated>& found, const LocatedBlade& before) {
-    return found && Contrast(found->blade.edge) > Contrast(before.edge);
-  };
-  const bool upper_clearer = clearer(upper, blades->upper);
-  if (upper_clearer == clearer(lower, blades->lower)) return;  // either, or neither
-  if (upper_clearer) {
-    Replace(*std::move(upper), &blades->upper, pivot);
+  const std::optional<Relocated> upper =
+      LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
+  const std::optional<Relocated> lower =
+      LookWhereMirrored(view, line, *pivot, blades->lower, blades->upper);
+  const bool upper_better =
+      IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, *pivot));
+  const bool lower_better =
+      IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, *pivot));
+  if (upper_better == lower_better) return;  // either, or neither
+  if (upper_better) {
+    Replace(*upper, &blades->upper, pivot);
   } else {
-    Replace(*std::move(lower), &blades->lower, pivot);
+    Replace(*lower, &blades->lower, pivot);
   }
 }
 
@@ -140,7 +154,7 @@ void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blade
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
   if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
-    Replace(*std::move(found), &doubtful, pivot);
+    Replace(*found, &doubtful, pivot);
 }
 
 }  // namespace

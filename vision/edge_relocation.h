@@ -19,9 +19,10 @@ struct RelocationView {
 
 // Blades mirror each other about the line through the pivot. Where the edges do not, and markers
 // tell the tilt of the view, each is looked for anew where the other one's mirror image lies; if
-// one of them stands out more clearly there than where it was, it is taken from there, trimmed, and
-// pivot->asymmetry says how alike the two are then. Where they do, but one of them is doubtful,
-// that one is looked for, and taken if it is less doubtful there.
+// one of them stands out more clearly there than where it was, or alone is seen there, outside of
+// where it was, it is taken from there, trimmed, and pivot->asymmetry says how alike the two are
+// then. Where they do, but one of them is doubtful, that one is looked for, and taken if it is less
+// doubtful there.
 void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve

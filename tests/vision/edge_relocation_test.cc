@@ -70,14 +70,14 @@ struct Measured {
     blade->edge.common_sigma_px = outwards_px;
   }
 
-  // As if the edge had been taken for a faint line of the background.
-  void Misplace(LocatedBlade* blade, double outwards_px) {
-    constexpr double kFaint = 0.01;
+  // As if the edge had been taken for a faint line of the background, or for another one.
+  static constexpr double kFaint = 0.01, kStrong = 0.9;
+  void Misplace(LocatedBlade* blade, double outwards_px, double contrast = kFaint) {
     for (LocatedEdgePoint& p : blade->edge.points) {
       const Vector2d shift = outwards_px * p.normal;
       p.point_px += shift;
       p.trend_px += shift;
-      p.contrast = kFaint;
+      p.contrast = contrast;
     }
     KeepFree(scene, blade);
     Compare();
@@ -132,6 +132,20 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
     EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper), kClosePx) << upper;
     EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower), kClosePx) << upper;
     EXPECT_LT(std::abs(measured.pivot.asymmetry), kAlike) << upper;
+  }
+}
+
+// A bevel's inner border may stand out more than the cutting edge itself.
+TEST(RelocateUnlikeEdges, FindsTheEdgeOutsideOfAClearerLineOnTheBlade) {
+  constexpr double kInsidePx = 16, kClosePx = 0.3;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
+    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    measured.Misplace(&misplaced, -kInsidePx, Measured::kStrong);
+    ASSERT_GT(FarFrom(truth, misplaced), 0.9 * kInsidePx);
+    measured.Relocate();
+    EXPECT_LT(FarFrom(truth, misplaced), kClosePx) << upper;
   }
 }
 

@@ -284,6 +284,22 @@ TEST(LocateEdge, ABoundBelowTheTrueBlurMovesNoPlainEdge) {
   }
 }
 
+// Unless the caller knows that nothing in the picture is that soft.
+TEST(LocateEdge, AFirmBoundOfTheBlurHolds) {
+  Gaussian random(25);
+  const EdgeLook look{1.2, 60, 180, 1.5, 1};
+  const Line line = RandomLine(random);
+  const cv::Mat grey = PhotographOf(line, look, random);
+  EdgeOptions options;
+  options.most_blur_px = 0.7;
+  options.may_be_softer = false;
+  const LocatedEdge edge = LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 1, -1), options);
+  EXPECT_LE(edge.blur_px, options.most_blur_px);
+  options.may_be_softer = true;
+  EXPECT_GT(LocateEdge(grey, testing::GammaCurve(1), GuessOf(line, 1, -1), options).blur_px,
+            options.most_blur_px);
+}
+
 TEST(LocateEdge, ADarkBevelLineBelongsToTheBlade) {
   constexpr double kOverlap = 0.25;  // px; the blurs of two borders 3 px apart overlap
   Gaussian random(16);
