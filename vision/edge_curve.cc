@@ -32,16 +32,12 @@ Terms LegendreTerms(double t) {
   return terms;
 }
 
-// A run of inlying points without a gap, as indices: first to last, both inside.
-struct Run {
-  size_t first = 0, last = 0;
+size_t SizeOf(const PointRange& range) { return range.last - range.first + 1; }
 
-  [[nodiscard]] size_t Size() const { return last - first + 1; }
-};
-
-std::vector<Run> RunsOf(const std::vector<LocatedEdgePoint>& points) {
+// Runs of inlying points without a gap.
+std::vector<PointRange> RunsOf(const std::vector<LocatedEdgePoint>& points) {
   constexpr double kGapPx = 8;  // shorter ones are single outliers
-  std::vector<Run> runs;
+  std::vector<PointRange> runs;
   for (size_t i = 0; i < points.size(); ++i) {
     if (!points[i].inlier) continue;
     const bool joined =
@@ -59,7 +55,7 @@ std::vector<Run> RunsOf(const std::vector<LocatedEdgePoint>& points) {
 // the chord a cubic of the place along it lies.
 class Course {
  public:
-  Course(const std::vector<LocatedEdgePoint>& points, const Run& stretch)
+  Course(const std::vector<LocatedEdgePoint>& points, const PointRange& stretch)
       : origin_px_(points[stretch.first].point_px),
         along_(points[stretch.last].point_px - origin_px_),
         across_(Eigen::Vector2d(-along_.y(), along_.x()).normalized()) {
@@ -76,7 +72,7 @@ class Course {
 
   // Median distance of the inlying points of a stretch.
   [[nodiscard]] double DistanceOf(const std::vector<LocatedEdgePoint>& points,
-                                  const Run& stretch) const {
+                                  const PointRange& stretch) const {
     std::vector<double> distances;
     for (size_t i = stretch.first; i <= stretch.last; ++i) {
       if (points[i].inlier) distances.push_back(Distance(points[i].point_px));
@@ -100,7 +96,9 @@ class Course {
 
 // Whether a run beyond a gap leaves the course of the stretch before the gap. Longer than the gap,
 // it is the edge's own bend; too far out for a cubic to be continued, nobody knows.
-bool Leaves(const std::vector<LocatedEdgePoint>& points, const Run& stretch, const Run& run) {
+bool Leaves(const std::vector<LocatedEdgePoint>& points,
+            const PointRange& stretch,
+            const PointRange& run) {
   constexpr double kTolerance = 0.6;  // px; what a cubic continued over a gap may be off
   constexpr double kSpreads = 4;
   constexpr double kFarthest = 0.5;  // of the stretch's length, from it to the run's far end
@@ -154,16 +152,24 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
   return distances;
 }
 
+double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,
+                      const PointRange& stretch,
+                      const PointRange& run) {
+  return Course(points, stretch).DistanceOf(points, run);
+}
+
 bool RejectDetachedEnds(std::vector<LocatedEdgePoint>& points) {
   constexpr double kMost =
       0.5;  // of the points; a shorter stretch does not say how an edge goes on
-  const std::vector<Run> runs = RunsOf(points);
+  const std::vector<PointRange> runs = RunsOf(points);
   if (runs.size() < 2) return false;
-  const auto longest = std::max_element(
-      runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.Size() < b.Size(); });
-  if (static_cast<double>(longest->Size()) < kMost * static_cast<double>(points.size()))
+  const auto longest =
+      std::max_element(runs.begin(), runs.end(), [](const PointRange& a, const PointRange& b) {
+        return SizeOf(a) < SizeOf(b);
+      });
+  if (static_cast<double>(SizeOf(*longest)) < kMost * static_cast<double>(points.size()))
     return false;
-  Run known = *longest;
+  PointRange known = *longest;
   bool rejected = false;
   for (auto next = std::next(longest); next != runs.end(); ++next) {
     if (Leaves(points, known, *next)) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "vision/edge.h"
@@ -18,5 +19,16 @@ namespace bladecurve {
 // curve of the rest would: near the tip, where a bevel mirrors the ground, the line found may go
 // over to the bevel's inner border. Returns whether there were any.
 bool RejectDetachedEnds(std::vector<LocatedEdgePoint>& points);
+
+// Indices of the first and the last point, both inside.
+struct PointRange {
+  std::size_t first = 0, last = 0;
+};
+
+// Median distance of the inlying points of `run` from the cubic that those of `stretch` follow,
+// continued. px.
+[[nodiscard]] double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,
+                                    const PointRange& stretch,
+                                    const PointRange& run);
 
 }  // namespace bladecurve

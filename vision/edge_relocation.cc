@@ -10,8 +10,8 @@
 
 #include "vision/consistency.h"
 #include "vision/edge_pair.h"
+#include "vision/mirror_line.h"
 #include "vision/pivot_geometry.h"
-#include "vision/plane_map.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -19,30 +19,6 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-// The line about which the blades turn into each other, in the plane of the edges.
-struct MirrorLine {
-  const PlaneMap& map;
-  Vector2d pivot, direction;
-
-  [[nodiscard]] Vector2d Reflected(const Vector2d& image_px) const {
-    const Vector2d offset = map.PlaneFromImage(image_px) - pivot;
-    return map.ImageFromPlane(pivot + 2 * offset.dot(direction) * direction - offset);
-  }
-};
-
-// Halfway between the edges' directions: an edge that lies aside of its place runs much as it
-// should.
-MirrorLine LineBetween(const PlaneMap& map, const Pivot& pivot, const Blades& blades) {
-  const auto direction = [&](const LocatedBlade& blade) {
-    return (map.PlaneFromImage(blade.used.back().trend_px) -
-            map.PlaneFromImage(blade.used.front().trend_px))
-        .normalized();
-  };
-  return {map,
-          map.PlaneFromImage(pivot.point_px),
-          (direction(blades.upper) + direction(blades.lower)).normalized()};
-}
 
 double Contrast(const LocatedEdge& edge) {
   std::vector<double> contrasts;
@@ -125,7 +101,7 @@ bool IsBetter(const std::optional<Relocated>& found,
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
 void RelocateClearerOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
-  const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
+  const MirrorLine line = LineBetween(*view.scale.map, pivot->point_px, *blades);
   const std::optional<Relocated> upper =
       LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
   const std::optional<Relocated> lower =
@@ -149,7 +125,7 @@ void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blade
   LocatedBlade& doubtful = is_upper ? blades->upper : blades->lower;
   const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
-  const MirrorLine line = LineBetween(*view.scale.map, *pivot, *blades);
+  const MirrorLine line = LineBetween(*view.scale.map, pivot->point_px, *blades);
   std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, doubtful, other);
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;

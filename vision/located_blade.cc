@@ -41,8 +41,12 @@ double SmearedByTip(const std::vector<Vector2d>& points) {
 
 }  // namespace
 
-void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade) {
-  const std::vector<Vector2d> points = InlierPoints(blade->edge);
+void TrimToFree(const Photo& photo,
+                const Scene& scene,
+                LocatedBlade* blade,
+                const std::vector<Vector2d>& beyond) {
+  std::vector<Vector2d> points = InlierPoints(blade->edge);
+  points.insert(points.end(), beyond.begin(), beyond.end());
   const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
   const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
   blade->end = FindDistalEnd(

@@ -28,7 +28,11 @@ struct Blades {
 
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
 // near, and that end. Throws Refused{kEdgeTooShort}.
-void TrimToFree(const Photo& photo, const Scene& scene, LocatedBlade* blade);
+// `beyond`: where the edge is known to go on towards the tip although it is not seen.
+void TrimToFree(const Photo& photo,
+                const Scene& scene,
+                LocatedBlade* blade,
+                const std::vector<Eigen::Vector2d>& beyond = {});
 
 // The same for an end that is known. Throws Refused{kEdgeTooShort}.
 void KeepFree(const Scene& scene, LocatedBlade* blade);

@@ -10,6 +10,7 @@
 #include "vision/consistency.h"
 #include "vision/edge_debug.h"
 #include "vision/edge_pair.h"
+#include "vision/edge_parting.h"
 #include "vision/edge_relocation.h"
 #include "vision/end_pair.h"
 #include "vision/located_blade.h"
@@ -226,6 +227,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   RelocateUnlikeEdges({photo, scale, scene}, &pivot, &parts.blades);
+  CutWhereEdgesPart({photo, scale, scene}, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
   for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) KeepFree(scene, blade);

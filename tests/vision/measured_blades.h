@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// A rendered photograph with markers, measured up to where the two edges are compared, and ways to
+// spoil what was found.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <vector>
+
+#include "process_folder.h"
+#include "vision/edge_pair.h"
+#include "vision/edge_relocation.h"
+#include "vision/pivot_geometry.h"
+#include "vision/png_writer.h"
+#include "vision/render.h"
+
+namespace bladecurve::testing {
+
+using Eigen::Vector2d;
+
+inline constexpr double kMarkerMm = 25;
+inline constexpr bool kUpperOnLeft = true;  // the scene's tips lie to the right
+
+inline SceneSpec SceneWithMarkers() {
+  SceneSpec spec;
+  spec.width = 1200;
+  spec.height = 900;
+  spec.camera.mm_per_px = 0.25;
+  spec.camera.tilt_rad = 0.15;
+  for (int k = 0; k < 4; ++k) {
+    const Vector2d corner((k % 2 == 0 ? -1 : 1) * 120, (k < 2 ? -1 : 1) * 85);
+    spec.markers.push_back({k, kMarkerMm, corner, 0.1, 5});
+  }
+  return spec;
+}
+
+// A rendered photograph up to where the edges are compared.
+struct Measured {
+  explicit Measured(const SceneSpec& spec)
+      : truth(TruthOf(spec)), photo(PhotoOf(spec)), scale(FindScale(photo, ScaleOf(spec))) {
+    StageLog log;
+    scene = FindScene(photo, scale.markers, {}, &log);
+    BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    blades = {{kUpperOnLeft, edges.upper, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}}, false};
+    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
+    pivot.point_px = truth.pivot_px;
+    pivot.covariance_px2.setIdentity();
+    pivot.source = "screw";
+    Compare();
+  }
+
+  void Compare() {
+    pivot.asymmetry =
+        EdgeAsymmetry({PointsOf(blades.upper), PointsOf(blades.lower)}, pivot.point_px);
+  }
+
+  // As if nothing beside the edge looked like a border.
+  static void MakeClear(LocatedBlade* blade) {
+    blade->edge.ambiguity = 0;
+    blade->edge.common_sigma_px = 0.1;
+  }
+
+  // As if the edge had been lost and were the trace of the scene.
+  void Lose(LocatedBlade* blade, double outwards_px) {
+    Misplace(blade, outwards_px);
+    blade->edge.ambiguity = 1;
+    blade->edge.common_sigma_px = outwards_px;
+  }
+
+  // As if the edge had been taken for a faint line of the background, or for another one.
+  static constexpr double kFaint = 0.01, kStrong = 0.9;
+  void Misplace(LocatedBlade* blade, double outwards_px, double contrast = kFaint) {
+    for (LocatedEdgePoint& p : blade->edge.points) {
+      const Vector2d shift = outwards_px * p.normal;
+      p.point_px += shift;
+      p.trend_px += shift;
+      p.contrast = contrast;
+    }
+    KeepFree(scene, blade);
+    Compare();
+  }
+
+  [[nodiscard]] RelocationView View() const { return {photo, scale, scene}; }
+
+  static Photo PhotoOf(const SceneSpec& spec) {
+    const std::filesystem::path file = ProcessFolder() / "picture.png";
+    WritePng(file, RenderScene(spec).bgr);
+    return Photo::Load(file);
+  }
+  static ScaleOptions ScaleOf(const SceneSpec& spec) {
+    ScaleOptions options;
+    options.marker_mm = kMarkerMm;
+    options.plane_height_mm = spec.edge_height_mm;
+    return options;
+  }
+
+  SceneTruth truth;
+  Photo photo;
+  ScaleResult scale;
+  Scene scene;
+  Blades blades;
+  Pivot pivot;
+};
+
+// Median distance of the points used from the true edge, px.
+inline double FarFrom(const EdgeTruth& truth, const LocatedBlade& blade) {
+  std::vector<double> off;
+  for (const LocatedEdgePoint& p : blade.used) {
+    double nearest = 1e9;
+    for (const Vector2d& q : truth.px)
+      nearest = std::min(nearest,
+                         std::abs(p.normal.dot(p.point_px - q)) + 0.01 * (p.point_px - q).norm());
+    off.push_back(nearest);
+  }
+  std::nth_element(
+      off.begin(), off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2), off.end());
+  return off[off.size() / 2];
+}
+
+}  // namespace bladecurve::testing

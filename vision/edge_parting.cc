@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge_parting.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "vision/consistency.h"
+#include "vision/edge_curve.h"
+#include "vision/mirror_line.h"
+#include "vision/refused.h"
+#include "vision/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSigmaPerMedian = 1.4826;
+
+// An edge's inlying points about the mirror line: places along it, distances from it towards the
+// blade's own side. In units of the plane map.
+struct Profile {
+  std::vector<double> along, aside;
+  std::vector<std::size_t> index;  // of the point in the edge
+  double side = 1;                 // of the line, left positive
+};
+
+Profile ProfileOf(const MirrorLine& line, const LocatedBlade& blade) {
+  const Vector2d across = line.Across();
+  const auto offset = [&](const Vector2d& px) {
+    return Vector2d(line.map.PlaneFromImage(px) - line.pivot);
+  };
+  Profile profile;
+  profile.side = std::copysign(1.0, offset(blade.used.back().trend_px).dot(across));
+  for (std::size_t i = 0; i < blade.edge.points.size(); ++i) {
+    if (!blade.edge.points[i].inlier) continue;
+    const Vector2d p = offset(blade.edge.points[i].trend_px);
+    if (!profile.along.empty() && p.dot(line.direction) <= profile.along.back()) continue;
+    profile.along.push_back(p.dot(line.direction));
+    profile.aside.push_back(profile.side * p.dot(across));
+    profile.index.push_back(i);
+  }
+  return profile;
+}
+
+// The upper edge's distance from the mirror line less the lower one's, along the line.
+struct Gap {
+  std::vector<double> along, apart;
+};
+
+Gap GapBetween(const Profile& upper, const Profile& lower) {
+  Gap gap;
+  for (std::size_t i = 0; i < upper.along.size(); ++i) {
+    const auto after = std::lower_bound(lower.along.begin(), lower.along.end(), upper.along[i]);
+    if (after == lower.along.begin() || after == lower.along.end()) continue;
+    const auto k = static_cast<std::size_t>(after - lower.along.begin());
+    const double t = (upper.along[i] - lower.along[k - 1]) / (lower.along[k] - lower.along[k - 1]);
+    gap.along.push_back(upper.along[i]);
+    gap.apart.push_back(upper.aside[i] - std::lerp(lower.aside[k - 1], lower.aside[k], t));
+  }
+  return gap;
+}
+
+// The straight line that the gap follows over its middle, clear of crotch and tips, and how far
+// the gap is off it everywhere.
+struct Trend {
+  double origin = 0, value = 0, slope = 0;
+  std::vector<double> off;
+  double scatter = 0;  // over the middle
+
+  [[nodiscard]] double At(double along) const { return value + slope * (along - origin); }
+};
+
+Trend TrendOf(const Gap& gap) {
+  constexpr double kFrom = 0.2, kTo = 0.7;  // shares of the gap's length
+  constexpr int kRounds = 4;
+  constexpr double kFar = 3;  // scatters
+  const auto at = [&](double share) {
+    return static_cast<std::size_t>(share * static_cast<double>(gap.along.size()));
+  };
+  Trend trend;
+  trend.origin = gap.along[at(kFrom)];
+  trend.scatter = std::numeric_limits<double>::infinity();
+  trend.off.assign(gap.along.size(), 0.0);
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Vector2d right = Vector2d::Zero();
+    for (std::size_t i = at(kFrom); i < at(kTo); ++i) {
+      if (std::abs(trend.off[i]) > kFar * trend.scatter) continue;
+      const Vector2d row(1, gap.along[i] - trend.origin);
+      normal += row * row.transpose();
+      right += row * gap.apart[i];
+    }
+    const Vector2d line = normal.ldlt().solve(right);
+    trend.value = line.x();
+    trend.slope = line.y();
+    for (std::size_t i = 0; i < gap.along.size(); ++i)
+      trend.off[i] = gap.apart[i] - trend.At(gap.along[i]);
+    const auto middle = [&](double share) {
+      return trend.off.begin() + static_cast<std::ptrdiff_t>(at(share));
+    };
+    trend.scatter = kSigmaPerMedian * MedianAbsolute({middle(kFrom), middle(kTo)});
+  }
+  return trend;
+}
+
+// Median of each value and its neighbours: single strays aside.
+std::vector<double> Smoothed(const std::vector<double>& values) {
+  constexpr std::ptrdiff_t kReach = 4;
+  std::vector<double> smooth;
+  const auto count = static_cast<std::ptrdiff_t>(values.size());
+  for (std::ptrdiff_t i = 0; i < count; ++i) {
+    smooth.push_back(Median({values.begin() + std::max<std::ptrdiff_t>(0, i - kReach),
+                             values.begin() + std::min(count, i + kReach + 1)}));
+  }
+  return smooth;
+}
+
+// How many of the values from the first on are off zero: by `tolerance` somewhere, by half of it
+// all along.
+template <typename Iterator>
+std::size_t CountOff(Iterator first, Iterator last, double tolerance) {
+  std::size_t count = 0;
+  double most = 0;
+  for (; first != last && std::abs(*first) > 0.5 * tolerance; ++first, ++count)
+    most = std::max(most, std::abs(*first));
+  return most > tolerance ? count : 0;
+}
+
+// The points of an edge from one place along the mirror line to another.
+PointRange Between(const Profile& profile, double from, double to) {
+  const auto first = std::lower_bound(profile.along.begin(), profile.along.end(), from);
+  const auto last = std::upper_bound(first, profile.along.end(), to);
+  const auto at = [&](auto place) {
+    const std::ptrdiff_t k = place - profile.along.begin();
+    return profile.index[std::min(static_cast<std::size_t>(k), profile.index.size() - 1)];
+  };
+  return {at(first), at(first == last ? last : std::prev(last))};
+}
+
+// Whether an end of either edge was cut off.
+struct WasCut {
+  bool upper = false, lower = false;
+};
+
+// Both edges about the mirror line, and where they part.
+class Comparison {
+ public:
+  Comparison(const MirrorLine& line, Blades* blades) : line_(line), blades_(*blades) {
+    TakeProfiles();
+    gap_ = GapBetween(upper_, lower_);
+  }
+
+  // Marks the points beyond as strays.
+  WasCut CutEnds() {
+    constexpr std::size_t kFewest = 60;  // points; fewer have no middle to go by
+    constexpr double kTolerancePx = 1, kScatters = 4;
+    if (gap_.along.size() < kFewest) return {};
+    trend_ = TrendOf(gap_);
+    const Vector2d pivot_px = line_.map.ImageFromPlane(line_.pivot);
+    const double per_px = std::sqrt(std::abs(line_.map.JacobianAt(pivot_px).determinant()));
+    const double tolerance = kTolerancePx * per_px + kScatters * trend_.scatter;
+    const std::vector<double> off = Smoothed(trend_.off);
+    const WasCut tip = CutTip(CountOff(off.rbegin(), off.rend(), tolerance));
+    const WasCut crotch = CutCrotch(CountOff(off.begin(), off.end(), tolerance));
+    TakeProfiles();
+    return {tip.upper || crotch.upper, tip.lower || crotch.lower};
+  }
+
+  // Where the lower edge says that the upper one goes on towards the tip, and the other way round.
+  [[nodiscard]] std::vector<Vector2d> BeyondUpper() const { return Beyond(upper_, lower_, 1); }
+  [[nodiscard]] std::vector<Vector2d> BeyondLower() const { return Beyond(lower_, upper_, -1); }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  void TakeProfiles() {
+    upper_ = ProfileOf(line_, blades_.upper);
+    lower_ = ProfileOf(line_, blades_.lower);
+  }
+
+  // Enough to be seen, and not so much that what is left has no middle.
+  [[nodiscard]] bool IsAnEnd(std::size_t count) const {
+    constexpr std::size_t kFewest = 5;
+    constexpr double kMost = 0.45;  // of the gap
+    return count >= kFewest &&
+           static_cast<double>(count) < kMost * static_cast<double>(gap_.along.size());
+  }
+
+  // A tenth of the gap from either end, which the course of what is kept does not need.
+  [[nodiscard]] std::size_t Margin() const { return gap_.along.size() / 10; }
+
+  WasCut CutTip(std::size_t count) {
+    if (!IsAnEnd(count)) return {};
+    const double from = gap_.along[gap_.along.size() - 1 - count];
+    return Cut({gap_.along[Margin()], from}, {from, gap_.along.back()}, {from, kInfinity});
+  }
+
+  WasCut CutCrotch(std::size_t count) {
+    if (!IsAnEnd(count)) return {};
+    const double to = gap_.along[count];
+    return Cut({to, gap_.along[gap_.along.size() - 1 - Margin()]},
+               {gap_.along.front(), to},
+               {-kInfinity, to});
+  }
+
+  // From one place along the mirror line to another.
+  struct Stretch {
+    double from = 0, to = 0;
+  };
+
+  // Cuts off the edge that leaves its own course there, or off both.
+  WasCut Cut(const Stretch& kept, const Stretch& parting, const Stretch& strays) {
+    constexpr double kClearly = 1.5;  // times as far
+    const auto leaves_by = [&](const Profile& profile, const LocatedBlade& blade) {
+      return LeavesCourseBy(blade.edge.points,
+                            Between(profile, kept.from, kept.to),
+                            Between(profile, parting.from, parting.to));
+    };
+    const auto cut = [&](const Profile& profile, LocatedBlade* blade) {
+      const PointRange range = Between(profile, strays.from, strays.to);
+      for (std::size_t i = range.first; i <= range.last; ++i) blade->edge.points[i].inlier = false;
+    };
+    const double upper = leaves_by(upper_, blades_.upper), lower = leaves_by(lower_, blades_.lower);
+    const WasCut was_cut{upper > lower / kClearly, lower > upper / kClearly};
+    if (was_cut.upper) cut(upper_, &blades_.upper);
+    if (was_cut.lower) cut(lower_, &blades_.lower);
+    return was_cut;
+  }
+
+  [[nodiscard]] std::vector<Vector2d> Beyond(const Profile& own,
+                                             const Profile& other,
+                                             double sign) const {
+    std::vector<Vector2d> points;
+    for (std::size_t i = 0; i < other.along.size(); ++i) {
+      const double along = other.along[i];
+      if (along <= own.along.back()) continue;
+      points.push_back(line_.At(along, own.side * (other.aside[i] + sign * trend_.At(along))));
+    }
+    return points;
+  }
+
+  MirrorLine line_;
+  Blades& blades_;
+  Profile upper_, lower_;
+  Gap gap_;
+  Trend trend_;
+};
+
+}  // namespace
+
+void CutWhereEdgesPart(const RelocationView& view, const Pivot& pivot, Blades* blades) {
+  if (pivot.source == "geometry" || !view.scale.sheet || AreUnlike(pivot.asymmetry)) return;
+  const Blades before = *blades;
+  Comparison comparison(LineBetween(*view.scale.map, pivot.point_px, *blades), blades);
+  const WasCut was_cut = comparison.CutEnds();
+  try {
+    if (was_cut.upper) TrimToFree(view.photo, view.scene, &blades->upper, comparison.BeyondUpper());
+    if (was_cut.lower) TrimToFree(view.photo, view.scene, &blades->lower, comparison.BeyondLower());
+  } catch (const Refused&) {
+    *blades = before;  // too little would be left
+  }
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/edge_relocation.h"
+
+namespace bladecurve {
+
+// Where the edges, elsewhere each other's mirror images about the line through the pivot, part
+// towards their ends, one of them has gone over to another line: a bevel's inner border that meets
+// the edge at the tip, the other blade's edge at the crotch. That end is cut off: of the edge that
+// leaves its own course there, of both where either might.
+void CutWhereEdgesPart(const RelocationView& view, const Pivot& pivot, Blades* blades);
+
+}  // namespace bladecurve

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/mirror_line.h"
+
+namespace bladecurve {
+
+using Eigen::Vector2d;
+
+Vector2d MirrorLine::At(double along, double aside) const {
+  return map.ImageFromPlane(pivot + along * direction + aside * Across());
+}
+
+Vector2d MirrorLine::Reflected(const Vector2d& image_px) const {
+  const Vector2d offset = map.PlaneFromImage(image_px) - pivot;
+  return map.ImageFromPlane(pivot + 2 * offset.dot(direction) * direction - offset);
+}
+
+MirrorLine LineBetween(const PlaneMap& map, const Vector2d& pivot_px, const Blades& blades) {
+  const auto direction = [&](const LocatedBlade& blade) {
+    return (map.PlaneFromImage(blade.used.back().trend_px) -
+            map.PlaneFromImage(blade.used.front().trend_px))
+        .normalized();
+  };
+  return {map,
+          map.PlaneFromImage(pivot_px),
+          (direction(blades.upper) + direction(blades.lower)).normalized()};
+}
+
+}  // namespace bladecurve
