@@ -115,58 +115,64 @@ DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double 
   return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
 }
 
+DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap) {
+  // The arc's start is known to a few tenths of its radius: real tips are not quite round.
+  DistalEnd end =
+      EndAtCap(edge, cap, std::hypot(0.5, std::hypot(cap.scatter_px, 0.25 * cap.radius_px)));
+  end.arc_seen = true;
+  end.evidence = cap.Evidence();
+  return end;
+}
+
 // How far before the presumed tip the edge is lost.
 double LostBeforeTip(const std::vector<Vector2d>& edge, const Vector2d& tip_px) {
   return (tip_px - edge.back()).dot(AlongChord(edge));
 }
 
-// The arc at the presumed tip. Where there is none and the edge is lost far before it, grain or a
-// shadow may have been taken for metal, and the tip be where the edge is lost.
-std::optional<TipCap> FindClearCap(const cv::Mat& grey,
-                                   const std::vector<Vector2d>& edge,
-                                   const TipSearch& presumed) {
-  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
-  constexpr double kFar = 0.05;    // of the edge's length; edges fade over the last few percent
-  constexpr double kFarReach = 3;  // times how far the presumed tip may be off
-  constexpr double kCertainArc = 1;
-  constexpr int kCertainlySeen = 12;  // lines; so many do not end on an arc by chance
-  const std::optional<TipCap> cap = FitTipCap(grey, edge, presumed);
-  if (cap && cap->scatter_px < kClearArc) return cap;
-  const double lost_px = LostBeforeTip(edge, presumed.tip_px);
-  if (lost_px < kFar * (edge.back() - edge.front()).norm()) return std::nullopt;
-  if (lost_px < kFarReach * presumed.reach_px) return std::nullopt;
-  TipSearch nearer = presumed;
-  nearer.tip_px = edge.back();
-  const std::optional<TipCap> near = FitTipCap(grey, edge, nearer);
-  const bool certain = near && near->scatter_px < kCertainArc && near->seen >= kCertainlySeen &&
-                       (near->end_px - edge.back()).norm() < presumed.reach_px;
-  return certain ? near : std::nullopt;
-}
-
-}  // namespace
-
-DistalEnd FindDistalEnd(const cv::Mat& grey,
-                        const std::vector<Vector2d>& edge,
-                        const EndSearch& search) {
-  constexpr std::size_t kFewest = 12;
-  if (edge.size() < kFewest) {
-    const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
-    return {edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length};
-  }
-  const std::optional<TipCap> cap = FindClearCap(grey, edge, search.tip);
-  if (cap) {
-    // The arc's start is known to a few tenths of its radius: real tips are not quite round.
-    DistalEnd end =
-        EndAtCap(edge, *cap, std::hypot(0.5, std::hypot(cap->scatter_px, 0.25 * cap->radius_px)));
-    end.arc_seen = true;
-    return end;
-  }
+// The end by the edge's own course or by what tips usually are, where no arc is seen.
+DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge, const EndSearch& search) {
   const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
   const TipCap usual = UsualTipCap(edge, search.tip);
   const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
   if (bend.along_sigma_px < usual_sigma_px) return bend;
   const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
+}
+
+// An arc elsewhere than at the presumed tip, where the step across the edge is lost: grain or a
+// shadow may have been taken for metal, or a part of the blade for background.
+std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
+                                   const std::vector<Vector2d>& edge,
+                                   const TipSearch& presumed) {
+  constexpr double kClearArc = 1;  // px of scatter
+  const std::optional<Vector2d> lost_px = FollowStep(grey, edge, presumed);
+  if (!lost_px || (*lost_px - presumed.tip_px).norm() < presumed.reach_px) return std::nullopt;
+  TipSearch search = presumed;
+  search.tip_px = *lost_px;
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
+  return cap && cap->scatter_px < kClearArc ? cap : std::nullopt;
+}
+
+}  // namespace
+
+DistalEnds FindDistalEnds(const cv::Mat& grey,
+                          const std::vector<Vector2d>& edge,
+                          const EndSearch& search) {
+  constexpr std::size_t kFewest = 12;
+  constexpr double kClearArc = 2;     // px of scatter that is still a rounded end
+  constexpr int kCertainlySeen = 12;  // lines; so many do not end on an arc by chance
+  if (edge.size() < kFewest) {
+    const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
+    return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, std::nullopt};
+  }
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
+  const bool clear = cap && cap->scatter_px < kClearArc;
+  DistalEnds ends{clear ? EndAtSeenCap(edge, *cap) : EndWithoutCap(edge, search), std::nullopt};
+  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip);
+  if (!rival) return ends;
+  ends.rival = EndAtSeenCap(edge, *rival);
+  if (!clear && rival->seen >= kCertainlySeen) ends = {*ends.rival, std::nullopt};
+  return ends;
 }
 
 }  // namespace bladecurve

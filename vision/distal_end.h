@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "vision/tip_cap.h"
@@ -18,6 +19,12 @@ struct DistalEnd {
       0;  // first point of the edge that belongs to the tip; the size of the edge if none does
   double along_sigma_px = 0;  // standard uncertainty along the edge
   bool arc_seen = false;      // the tip's arc is seen to leave the edge there
+  double evidence = 0;        // of the arc, TipCap::Evidence
+};
+
+struct DistalEnds {
+  DistalEnd likely;
+  std::optional<DistalEnd> rival;  // by another arc, where the step across the edge is lost
 };
 
 struct EndSearch {
@@ -30,8 +37,8 @@ struct EndSearch {
 // from which on the residual grows as (t - t0)^2 / (2 R); or by what tips usually are, whichever is
 // more certain. Fewer than 12 points: the last point, with the length of the edge as its
 // uncertainty.
-[[nodiscard]] DistalEnd FindDistalEnd(const cv::Mat& grey,
-                                      const std::vector<Eigen::Vector2d>& edge,
-                                      const EndSearch& search);
+[[nodiscard]] DistalEnds FindDistalEnds(const cv::Mat& grey,
+                                        const std::vector<Eigen::Vector2d>& edge,
+                                        const EndSearch& search);
 
 }  // namespace bladecurve

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "vision/distal_end.h"
@@ -17,6 +18,7 @@ struct LocatedBlade {
   bool on_left = true;
   LocatedEdge edge;
   DistalEnd end;
+  std::optional<DistalEnd> rival_end;  // where it may lie instead
   std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
 };
 

@@ -129,8 +129,8 @@ Blades LocateAndTrim(const Photo& photo,
     log->Picture("edge-upper", DrawEdge(photo.grey(), edges.upper));
     log->Picture("edge-lower", DrawEdge(photo.grey(), edges.lower));
   }
-  Blades blades{{upper_on_left, std::move(edges.upper), {}, {}},
-                {!upper_on_left, std::move(edges.lower), {}, {}},
+  Blades blades{{upper_on_left, std::move(edges.upper), {}, {}, {}},
+                {!upper_on_left, std::move(edges.lower), {}, {}, {}},
                 false};
   TrimToFree(photo, scene, &blades.upper);
   TrimToFree(photo, scene, &blades.lower);

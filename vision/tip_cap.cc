@@ -57,7 +57,24 @@ EdgeAxis ContinueEdge(const std::vector<Vector2d>& edge, const TipSearch& search
 
 struct EndSeen {
   double depth = 0, position = 0;
+  double step = 0;  // grey values
 };
+
+// Light outside the edge less light inside, a little way off it. std::nullopt out of the picture.
+std::optional<double> StepAcross(const cv::Mat& grey, const EdgeAxis& axis, double position) {
+  constexpr double kNear = 1.5, kFar = 4.5, kSpacing = 0.5;  // px off the edge
+  double step = 0;
+  int count = 0;
+  for (double off = kNear; off <= kFar; off += kSpacing, ++count) {
+    for (const double depth : {-off, off}) {
+      const Vector2d p = axis.At(position, depth);
+      if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
+        return std::nullopt;
+      step += (depth < 0 ? 1 : -1) * Bilinear<uchar>(grey, p);
+    }
+  }
+  return step / count;
+}
 
 // The strongest step along one line, if it stands out from the others on it.
 std::optional<EndSeen> LookAlong(
@@ -94,7 +111,8 @@ std::optional<EndSeen> LookAlong(
     if (curvature < 0)
       shift = std::clamp(0.5 * (steps[best_at - 1] - steps[best_at + 1]) / curvature, -0.5, 0.5);
   }
-  return EndSeen{depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift)};
+  return EndSeen{
+      depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift), best};
 }
 
 struct Arc {
@@ -102,6 +120,7 @@ struct Arc {
   double score = 0;  // lines explained less lines contradicted, less what the edge denies
   double scatter = 0;
   int seen = 0;
+  double step = 0;  // typical
 };
 
 // Points of the followed edge that go on straight where the arc has left it already. Past the crown
@@ -122,21 +141,25 @@ Arc BestArc(const std::vector<EndSeen>& ends, const std::vector<EndSeen>& follow
   constexpr double kOnArc = 0.7;     // px
   constexpr double kDeepest = 1.25;  // radii: beyond the crown another side of the tip begins
   constexpr double kDenialPenalty = 0.5;
-  std::vector<double> starts;
+  std::vector<double> starts, steps;
   for (const EndSeen& end : ends) {
     if (end.depth < 0.1 * radius || end.depth > kDeepest * radius) continue;
     const double rise = radius - end.depth;
     starts.push_back(end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise)));
+    steps.push_back(end.step);
   }
   if (starts.size() < 5) return {};
-  Arc arc{Median(starts), radius, 0, 0, 0};
-  std::vector<double> off;
-  for (const double start : starts) {
-    if (std::abs(start - arc.start) < kOnArc) off.push_back(std::abs(start - arc.start));
+  Arc arc{Median(starts), radius, 0, 0, 0, 0};
+  std::vector<double> off, steps_on_arc;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (std::abs(starts[i] - arc.start) >= kOnArc) continue;
+    off.push_back(std::abs(starts[i] - arc.start));
+    steps_on_arc.push_back(steps[i]);
   }
   if (off.size() < 5) return {};
   arc.seen = static_cast<int>(off.size());
   arc.scatter = 1.4826 * Median(off);
+  arc.step = Median(steps_on_arc);
   arc.score = 2.0 * arc.seen - static_cast<double>(starts.size()) - arc.scatter -
               kDenialPenalty * Denials(followed, arc);
   return arc;
@@ -164,7 +187,7 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
   std::vector<EndSeen> followed;
   for (const Vector2d& p : edge) {
     const double position = (p - axis.origin).dot(axis.along);
-    followed.push_back({(p - axis.At(position, 0)).dot(axis.inwards), position});
+    followed.push_back({(p - axis.At(position, 0)).dot(axis.inwards), position, 0});
   }
   Arc best;
   for (double radius = 2; radius <= deepest; radius *= 1.06) {
@@ -172,7 +195,34 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
     if (arc.score > best.score) best = arc;
   }
   if (best.seen == 0) return std::nullopt;
-  return TipCap{axis.At(best.start, 0), best.radius, best.scatter, best.seen};
+  return TipCap{axis.At(best.start, 0), best.radius, best.scatter, best.seen, best.step};
+}
+
+std::optional<Vector2d> FollowStep(const cv::Mat& grey,
+                                   const std::vector<Vector2d>& edge,
+                                   const TipSearch& search) {
+  constexpr double kLastPart = 0.2;  // of the edge's length
+  constexpr double kShare = 0.4;     // of the step there is still a step
+  constexpr double kLost = 8;        // px without one
+  constexpr double kLeastGrey = 8;
+  constexpr double kFurthest = 1.5;  // edge's lengths
+  if (edge.size() < kFewestPoints) return std::nullopt;
+  const EdgeAxis axis = ContinueEdge(edge, search);
+  const double last = (edge.back() - axis.origin).dot(axis.along);
+  std::vector<double> steps;
+  for (double t = (1 - kLastPart) * last; t < last; ++t) {
+    if (const auto step = StepAcross(grey, axis, t)) steps.push_back(*step);
+  }
+  const double usual = Median(steps);
+  if (!(std::abs(usual) > kLeastGrey)) return std::nullopt;
+  double seen = (1 - kLastPart) * last;
+  for (double t = seen; t < kFurthest * last; ++t) {
+    const auto step = StepAcross(grey, axis, t);
+    if (!step) return std::nullopt;
+    if (*step / usual > kShare) seen = t;
+    if (t - seen > kLost) return axis.At(seen, 0);
+  }
+  return std::nullopt;
 }
 
 TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {
@@ -180,7 +230,7 @@ TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {
   const EdgeAxis axis = ContinueEdge(edge, search);
   const double tip = (search.tip_px - axis.origin).dot(axis.along);
   const double radius = kUsualRadius * search.blade_width_px;
-  return TipCap{axis.At(tip - radius, 0), radius, 0, 0};
+  return TipCap{axis.At(tip - radius, 0), radius, 0, 0, 0};
 }
 
 }  // namespace bladecurve

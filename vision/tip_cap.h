@@ -15,6 +15,9 @@ struct TipCap {
   double radius_px = 0;
   double scatter_px = 0;  // of the outline seen about the arc, robust
   int seen = 0;           // lines along which the outline was seen
+  double step = 0;        // grey values across it, typically
+
+  [[nodiscard]] double Evidence() const { return seen * step; }
 };
 
 struct TipSearch {
@@ -35,6 +38,12 @@ struct TipSearch {
 [[nodiscard]] std::optional<TipCap> FitTipCap(const cv::Mat& grey,
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
+
+// The last point of the edge, continued, at which there is a step across it like that along its last
+// part. std::nullopt where it goes on to the picture's border, or stood out nowhere.
+[[nodiscard]] std::optional<Eigen::Vector2d> FollowStep(const cv::Mat& grey,
+                                                        const std::vector<Eigen::Vector2d>& edge,
+                                                        const TipSearch& search);
 
 // What tips usually are, where no arc shows: a tenth of the blade's width in radius, from the edge
 // continued to `search.tip_px`. Good to about its radius along the edge; `seen` is 0. `edge` holds

@@ -100,6 +100,36 @@ TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   }
 }
 
+// Shadows of both tips, equally long, and the tips themselves.
+TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
+  constexpr double kShadow = 28;  // px
+  const auto with_rival = [&](bool on_left, double evidence, double rival_evidence) {
+    LocatedBlade blade = BladeOnRay(on_left, kLength + kShadow, 1, true);
+    blade.rival_end = BladeOnRay(on_left, kLength, 1, true).end;
+    blade.end.evidence = evidence;
+    blade.rival_end->evidence = rival_evidence;
+    return blade;
+  };
+  Blades clear{with_rival(true, 100, 300), with_rival(false, 100, 300)};
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &clear);
+  EXPECT_NEAR(LengthOf(clear.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(clear.lower), kLength, kExact);
+  Blades faint{with_rival(true, 300, 100), with_rival(false, 300, 100)};
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &faint);
+  EXPECT_NEAR(LengthOf(faint.upper), kLength + kShadow, kExact);
+}
+
+// A line on one blade ends like a tip, clearer than it; the other blade has its end elsewhere.
+TEST(AgreeOnEnds, TakesNoRivalThatTheOtherBladeContradicts) {
+  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, kLength, 1, true)};
+  blades.upper.rival_end = BladeOnRay(true, kLength - 60, 1, true).end;
+  blades.upper.end.evidence = blades.lower.end.evidence = 100;
+  blades.upper.rival_end->evidence = 1000;
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_FALSE(blades.ends_contradict);
+}
+
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
   Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
   Pivot beyond = PivotSeen();

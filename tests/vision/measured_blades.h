@@ -46,7 +46,8 @@ struct Measured {
     StageLog log;
     scene = FindScene(photo, scale.markers, {}, &log);
     BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
-    blades = {{kUpperOnLeft, edges.upper, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}}, false};
+    blades = {
+        {kUpperOnLeft, edges.upper, {}, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}, {}}, false};
     for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
     pivot.point_px = truth.pivot_px;
     pivot.covariance_px2.setIdentity();

@@ -73,26 +73,64 @@ TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
   EXPECT_NEAR(cap->end_px.x(), kTip - 6, kAlong);
 }
 
+TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
+  constexpr double kRadius = 6, kClosePx = 5;
+  std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  edge.resize(200);  // not followed to the end
+  for (const double presumed : {250.0, 300.0, 330.0}) {
+    TipSearch search = kSearch;
+    search.tip_px.x() = presumed;
+    const auto lost = FollowStep(Blade(kRadius), edge, search);
+    ASSERT_TRUE(lost) << presumed;
+    EXPECT_NEAR(lost->x(), kTip - kRadius / 2, kClosePx) << presumed;
+  }
+}
+
+// A soft or a hard shadow of the tip lies further on than the tip itself.
+TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
+  constexpr double kRadius = 8, kShadowPx = 20, kAlong = 2.5;
+  const cv::Mat blade = Blade(kRadius);
+  cv::Mat shadow;
+  cv::warpAffine(blade,
+                 shadow,
+                 cv::Matx23d(1, 0, kShadowPx, 0, 1, 0),
+                 blade.size(),
+                 cv::INTER_LINEAR,
+                 cv::BORDER_REPLICATE);
+  cv::Mat picture = blade.clone();
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    constexpr double kDepth = 0.25;  // of the blade's own step
+    const double darker = kDepth * (200 - shadow.at<uchar>(at[0], at[1]));
+    value = static_cast<uchar>(std::min<double>(value, 200 - darker));
+  });
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip + kShadowPx;
+  const DistalEnds ends = FindDistalEnds(picture, EdgeAlong(kEdge), search);
+  ASSERT_TRUE(ends.rival);
+  EXPECT_NEAR(ends.rival->point_px.x(), kTip - kRadius, kAlong);
+  EXPECT_GT(ends.rival->evidence, 2 * ends.likely.evidence);
+}
+
 // Grain of the ground behind the blade was taken for its tip.
-TEST(FindDistalEnd, LooksWhereTheEdgeIsLostFarBeforeThePresumedTip) {
+TEST(FindDistalEnds, LooksWhereTheEdgeIsLostFarBeforeThePresumedTip) {
   constexpr double kRadius = 8, kAlong = 2.5;  // px
   cv::Mat picture;
   cv::copyMakeBorder(Blade(kRadius), picture, 0, 0, 0, 160, cv::BORDER_CONSTANT, cv::Scalar(200));
   EndSearch search{kSearch, 0.05};
   search.tip.tip_px.x() = kTip + 80;
-  const DistalEnd end = FindDistalEnd(picture, EdgeAlong(kEdge), search);
+  const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), search).likely;
   EXPECT_TRUE(end.arc_seen);
   EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
 }
 
 // A blade whose own end shows no arc: nobody knows where it ends.
-TEST(FindDistalEnd, IsAsUncertainAsTheEdgeIsLostBeforeThePresumedTip) {
+TEST(FindDistalEnds, IsAsUncertainAsTheEdgeIsLostBeforeThePresumedTip) {
   constexpr double kLost = 80;  // px
   cv::Mat picture(160, 500, CV_8UC1, cv::Scalar(200));
   picture.rowRange(0, static_cast<int>(kEdge)) = 80;  // a step that goes on and on
   EndSearch search{kSearch, 0.05};
   search.tip.tip_px.x() = kTip + kLost;
-  const DistalEnd end = FindDistalEnd(picture, EdgeAlong(kEdge), search);
+  const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), search).likely;
   EXPECT_FALSE(end.arc_seen);
   EXPECT_GT(end.along_sigma_px, 0.4 * kLost);
 }
