@@ -39,10 +39,12 @@ double ShortestSide(const Corners& corners) {
 bool LooksPrinted(const SquareSides& sides) {
   constexpr double kMinUsed = 0.5;     // sides half covered say too little
   constexpr double kMaxUneven = 0.35;  // paper beside a marker is about equally bright on all sides
+  constexpr double kBrightest = 3;     // times white; no step says more than that it is overexposed
   double low = 1e9, high = 0;
   for (const StraightEdge& side : sides) {
-    const double contrast = -side.contrast;  // clockwise, the inside lies along (-dy, dx)
-    if (contrast <= 0 || side.used < kMinUsed) return false;
+    // Clockwise, the inside lies along (-dy, dx). How far beyond white paper is is hardly seen.
+    const double contrast = std::min(-side.contrast, 1.0);
+    if (contrast <= 0 || side.used < kMinUsed || side.bright > kBrightest) return false;
     low = std::min(low, contrast);
     high = std::max(high, contrast);
   }
@@ -122,13 +124,14 @@ SeenMarker CrossSides(const SquareSides& sides,
     marker.corners_px[k] = crossing.point_px;
     variance += crossing.covariance_px2.trace() / 8;
     blur += sides[k].blur_px / 4;
+    marker.overexposed |= sides[k].bright > 1;
   }
   marker.corner_sigma_px = std::sqrt(variance);
   marker.blur_px = blur;
   return marker;
 }
 
-// A small marker once more, by all that is seen of it; as it was where that fails.
+// A marker once more, by all that is seen of it; as it was where that fails.
 SeenMarker Sharpened(const cv::Mat& grey,
                      const ToneCurve& tone,
                      const SeenMarker& marker,
@@ -170,9 +173,10 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
   const auto sides = LocateSides(grey, tone, rough.corners_px, options);
   if (!sides) return Unlocated(rough);
   const SeenMarker marker = CrossSides(*sides, rough, options);
-  const bool located = std::isfinite(marker.corner_sigma_px);
-  if (!located || ShortestSide(marker.corners_px) > kSmallPx) return marker;
-  return Sharpened(grey, tone, marker, options);
+  if (!std::isfinite(marker.corner_sigma_px)) return marker;
+  // Four sides together say better than one how bright the paper is.
+  const bool worth_it = marker.overexposed || ShortestSide(marker.corners_px) <= kSmallPx;
+  return worth_it ? Sharpened(grey, tone, marker, options) : marker;
 }
 
 std::vector<SeenMarker> FindMarkers(const cv::Mat& grey,

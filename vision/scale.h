@@ -46,6 +46,7 @@ struct SeenMarker {
       corners_px;  // sub-pixel; printed order, clockwise from the top left
   double corner_sigma_px = std::numeric_limits<double>::quiet_NaN();
   double blur_px = std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma, pixel box apart
+  bool overexposed = false;  // the paper beside it is brighter than white
 };
 
 struct ScaleResult {

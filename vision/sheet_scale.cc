@@ -37,7 +37,9 @@ std::vector<Eigen::Vector2d> InnerGrid(int width, int height) {
   return places;
 }
 
-std::vector<std::string> Warnings(const SheetSolution& solution, const ScaleOptions& options) {
+std::vector<std::string> Warnings(const SheetSolution& solution,
+                                  const std::vector<SeenMarker>& markers,
+                                  const ScaleOptions& options) {
   // Nearer than this, a blade 2 mm above the sheet looks 0.8 % larger than what lies on it.
   constexpr double kNearMm = 250;
   // A sheet bowed by 1 mm moves corners by some pixels; tone and paper stay below a third of a
@@ -53,6 +55,9 @@ std::vector<std::string> Warnings(const SheetSolution& solution, const ScaleOpti
   if (!options.plane_height_mm) warnings.emplace_back("plane_height_unknown");
   if (!focal_known && options.plane_height_mm.value_or(0) != 0)
     warnings.emplace_back("camera_unknown");
+  if (std::any_of(
+          markers.begin(), markers.end(), [](const SeenMarker& m) { return m.overexposed; }))
+    warnings.emplace_back("marker_overexposed");
   return warnings;
 }
 
@@ -67,7 +72,10 @@ CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
   return {CentredCamera(guess, width, height), kUnknownFocal, kUnknownK1};
 }
 
-PlaneMap MapOf(const SheetSolution& solution, const Photo& photo, const ScaleOptions& options) {
+PlaneMap MapOf(const SheetSolution& solution,
+               const std::vector<SeenMarker>& markers,
+               const Photo& photo,
+               const ScaleOptions& options) {
   const double height_mm = options.plane_height_mm.value_or(0);
   const LengthPlace place{InnerGrid(photo.grey().cols, photo.grey().rows),
                           height_mm,
@@ -75,7 +83,7 @@ PlaneMap MapOf(const SheetSolution& solution, const Photo& photo, const ScaleOpt
   return PlaneMap::FromGeometry(solution.pose.PlaneAtHeight(height_mm),
                                 RelativeSigma(solution, place),
                                 options.marker_mm ? "marker" : "card")
-      .WithWarnings(Warnings(solution, options));
+      .WithWarnings(Warnings(solution, markers, options));
 }
 
 bool IsLocated(const SeenMarker& marker) { return std::isfinite(marker.corner_sigma_px); }
@@ -111,7 +119,7 @@ ScaleResult Solve(const Photo& photo,
     solution = SolveSheet(problem(markers));
   }
   ScaleResult result;
-  result.map = MapOf(solution, photo, options);
+  result.map = MapOf(solution, markers, photo, options);
   result.sheet = std::move(solution);
   result.plane_height_mm = options.plane_height_mm.value_or(0);
   result.tone = tone;

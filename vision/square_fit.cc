@@ -77,8 +77,7 @@ class SquareModel {
         per_px_(1 / sides[0].length_px),
         sigma_(std::sqrt(TotalBlurVariance(at[kBlur]))) {}
 
-  // Light minus model and the model's derivatives. A saturated pixel says no more than that it is
-  // bright.
+  // Light minus model and the model's derivatives. Light beyond white is stored as white.
   double Residual(const SquarePixel& pixel, Unknowns* gradient) const {
     const Steps steps = StepsAt(pixel.place_px);
     const double inside = Product(steps.value, kSides);
@@ -86,7 +85,7 @@ class SquareModel {
     const double lamp = 1 + at_[kLampX] * place.x() + at_[kLampY] * place.y();
     const double depth = at_[kInk] - at_[kPaper], light = at_[kPaper] + depth * inside;
     gradient->setZero();
-    if (pixel.light >= 1 && lamp * light >= 1) return 0;
+    if (lamp * light >= 1) return pixel.light - 1;
     for (size_t k = 0; k < kSides; ++k) {
       const double rise = lamp * depth * Product(steps.value, k);
       const auto offset = static_cast<Eigen::Index>(2 * k);
@@ -288,6 +287,7 @@ std::optional<SquareSides> FitSquare(const cv::Mat& grey,
     fitted[i].covariance = covariance.block<2, 2>(2 * k, 2 * k);
     fitted[i].blur_px = at[kBlur];
     fitted[i].contrast = at[kInk] - at[kPaper];
+    fitted[i].bright = at[kPaper];
     fitted[i].noise = std::sqrt(there.sum_square / static_cast<double>(pixels.size() - kUnknowns));
   }
   return fitted;

@@ -29,6 +29,7 @@ StraightEdge Describe(const StraightFit& fit, const StraightEdgeBand& band, doub
   edge.blur_px = p[kBlur];
   edge.noise = std::sqrt(fit.mean_square);
   edge.contrast = p[kContrast];
+  edge.bright = BrightSide(p);
   edge.used = used;
   return edge;
 }

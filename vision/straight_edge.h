@@ -36,6 +36,7 @@ struct StraightEdge {
   double noise = 0;    // rms of a pixel about the model, linear light
   double contrast =
       0;  // bright minus dark, linear light, signed: positive if bright lies along (-dy, dx)
+  double bright = 0;  // light of the bright side; white is 1, and what is brighter stored as white
   double used =
       1;  // share of the length that agrees with a straight edge; the rest is covered or dirty
 

@@ -52,16 +52,16 @@ class EdgeModel {
         scale_(1 / band.length),
         profile_(std::atan2(band.normal.y(), band.normal.x()) + p[kAngle], p[kBlur]) {}
 
-  // Residual, light minus model, and the model's derivatives. A saturated pixel says no more than
-  // that it is bright.
+  // Residual, light minus model, and the model's derivatives. Light beyond white is stored as
+  // white.
   double Residual(const BandSample& s, StraightVector* gradient) const {
     const double distance = s.across * cos_ - s.along * sin_ - p_[kOffset];
     const EdgeProfile::Value step = profile_.At(distance);
     const double light = p_[kDark] + p_[kContrast] * step.level;
     const double lamp = 1 + p_[kAlong] * s.along * scale_;
-    if (s.light >= 1 && lamp * light >= 1) {
+    if (lamp * light >= 1) {
       gradient->setZero();
-      return 0;
+      return s.light - 1;
     }
     const double edge = lamp * p_[kContrast] * step.slope_per_px;
     *gradient << -edge, -edge * s.along, lamp, lamp * step.level,
@@ -127,7 +127,42 @@ bool Plausible(const StraightVector& p, const StraightEdgeBand& band) {
          std::abs(p[kAngle]) * band.length < 2 * band.half_width;
 }
 
+// The minimum next to `start`.
+std::optional<StraightFit> RefineFrom(const std::vector<BandSample>& samples,
+                                      const StraightEdgeBand& band,
+                                      const StraightVector& start) {
+  constexpr int kMaxSteps = 30;
+  constexpr double kDonePx = 1e-5;
+  StraightFit fit{start, StraightMatrix::Zero(), 0, samples.size()};
+  NormalEquations now = Accumulate(samples, band, fit.parameters);
+  double damping = 1e-4;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    StraightMatrix damped = now.information;
+    damped.diagonal() += damping * now.information.diagonal() + StraightVector::Constant(1e-9);
+    const StraightVector change = damped.ldlt().solve(now.gradient);
+    StraightVector next = fit.parameters + change;
+    next[kBlur] = std::max(next[kBlur], kMinBlurPx);
+    if (!Plausible(next, band)) return std::nullopt;
+    const NormalEquations there = Accumulate(samples, band, next);
+    if (there.sum_square > now.sum_square) {
+      damping = std::max(10 * damping, 1e-3);
+      if (damping > 1e6) break;
+      continue;
+    }
+    fit.parameters = next;
+    now = there;
+    damping *= 0.1;
+    if (std::abs(change[kOffset]) + std::abs(change[kAngle]) * band.length < kDonePx) break;
+  }
+  fit.covariance = ClusteredCovariance(samples, band, fit.parameters, now.information);
+  fit.mean_square =
+      now.sum_square / std::max(1.0, static_cast<double>(samples.size()) - kStraightParameters);
+  return fit;
+}
+
 }  // namespace
+
+double BrightSide(const StraightVector& p) { return p[kDark] + std::max(0.0, p[kContrast]); }
 
 std::optional<StraightVector> StartOf(const std::vector<BandSample>& samples,
                                       const StraightEdgeBand& band) {
@@ -156,33 +191,14 @@ std::optional<StraightVector> StartOf(const std::vector<BandSample>& samples,
 std::optional<StraightFit> RefineStraight(const std::vector<BandSample>& samples,
                                           const StraightEdgeBand& band,
                                           const StraightVector& start) {
-  constexpr int kMaxSteps = 30;
-  constexpr double kDonePx = 1e-5;
-  StraightFit fit{start, StraightMatrix::Zero(), 0, samples.size()};
-  NormalEquations now = Accumulate(samples, band, fit.parameters);
-  double damping = 1e-4;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    StraightMatrix damped = now.information;
-    damped.diagonal() += damping * now.information.diagonal() + StraightVector::Constant(1e-9);
-    const StraightVector change = damped.ldlt().solve(now.gradient);
-    StraightVector next = fit.parameters + change;
-    next[kBlur] = std::max(next[kBlur], kMinBlurPx);
-    if (!Plausible(next, band)) return std::nullopt;
-    const NormalEquations there = Accumulate(samples, band, next);
-    if (there.sum_square > now.sum_square) {
-      damping = std::max(10 * damping, 1e-3);
-      if (damping > 1e6) break;
-      continue;
-    }
-    fit.parameters = next;
-    now = there;
-    damping *= 0.1;
-    if (std::abs(change[kOffset]) + std::abs(change[kAngle]) * band.length < kDonePx) break;
-  }
-  fit.covariance = ClusteredCovariance(samples, band, fit.parameters, now.information);
-  fit.mean_square =
-      now.sum_square / std::max(1.0, static_cast<double>(samples.size()) - kStraightParameters);
-  return fit;
+  constexpr double kNearlyWhite = 0.93, kBrighter = 0.5;  // light
+  const std::optional<StraightFit> plain = RefineFrom(samples, band, start);
+  if (!plain || BrightSide(start) < kNearlyWhite) return plain;
+  StraightVector beyond_white = plain->parameters;
+  if (beyond_white[kContrast] < 0) beyond_white[kDark] += kBrighter;
+  beyond_white[kContrast] += std::copysign(kBrighter, beyond_white[kContrast]);
+  const std::optional<StraightFit> glaring = RefineFrom(samples, band, beyond_white);
+  return glaring && glaring->mean_square < plain->mean_square ? glaring : plain;
 }
 
 std::vector<BandSample> WithoutCovered(const std::vector<BandSample>& samples,

@@ -25,12 +25,16 @@ struct StraightFit {
   size_t count = 0;  // of pixels
 };
 
+// Light of the bright side.
+[[nodiscard]] double BrightSide(const StraightVector& parameters);
+
 // Offset and angle from where the light crosses the middle between its levels in the parts of the
 // edge, levels from the band's rims. std::nullopt for edges hidden along half their length.
 [[nodiscard]] std::optional<StraightVector> StartOf(const std::vector<BandSample>& samples,
                                                     const StraightEdgeBand& band);
 
-// Levenberg-Marquardt. std::nullopt if it leaves the band.
+// Levenberg-Marquardt. Near white also with a bright side beyond white, of which the picture shows
+// the lower part of the step alone. std::nullopt if it leaves the band.
 [[nodiscard]] std::optional<StraightFit> RefineStraight(const std::vector<BandSample>& samples,
                                                         const StraightEdgeBand& band,
                                                         const StraightVector& start);
