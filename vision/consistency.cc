@@ -59,6 +59,18 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseUnknownPivot(pivot, blades);
 }
 
+void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
+  constexpr double kFarUnlike = 0.025;
+  if (!scale.sheet || pivot.source != "screw" || std::abs(pivot.asymmetry) < kFarUnlike) return;
+  throw Refused(Reason::kLowContrast,
+                "edges: the two cutting edges are not each other's mirror images: they pass by the "
+                "pivot at distances that differ by " +
+                    std::to_string(std::abs(pivot.asymmetry)).substr(0, 5) +
+                    " of the blade's length; one of them is the line of a bevel or a shadow. Use "
+                    "another background or light; or, if this is no screw, say where it is: "
+                    "--pivot X,Y");
+}
+
 // Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
 // there no other transition accounts for it.
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }

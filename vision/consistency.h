@@ -4,6 +4,7 @@
 
 #include "vision/located_blade.h"
 #include "vision/pivot.h"
+#include "vision/scale.h"
 
 namespace bladecurve {
 
@@ -11,6 +12,10 @@ namespace bladecurve {
 // blades, kNotScissors for jaws that meet instead of crossing, kAmbiguousPivot where neither a
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
+
+// Throws Refused{kLowContrast} where the edges, seen from a known side and about a pivot that is
+// seen, are no mirror images by far: one of them is something else's border.
+void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
 // doubt, or as nearly alike as those of rendered scissors. Between the two nothing is said.

@@ -102,16 +102,19 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
 }
 
 void CollectWarnings(const Scene& scene,
+                     const ScaleResult& scale,
                      const PlaneMap& map,
                      const Pivot& pivot,
                      const Blades& blades,
                      std::vector<std::string>* warnings) {
   constexpr double kSeveralTransitions = 0.5;
-  constexpr double kSlanted = 0.04;  // rendered scissors stay below 0.015
+  constexpr double kSlanted = 0.04;  // where nobody knows the tilt of the view
   *warnings = scene.warnings;
   warnings->insert(warnings->end(), map.warnings().begin(), map.warnings().end());
   if (pivot.source == "geometry") warnings->push_back("pivot_not_seen");
-  if (std::abs(pivot.asymmetry) > kSlanted) warnings->push_back("blades_asymmetric");
+  const bool asymmetric =
+      scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted;
+  if (asymmetric) warnings->push_back("blades_asymmetric");
   if (blades.ends_contradict) warnings->push_back("ends_unlike");
   if (blades.upper.edge.ambiguity > kSeveralTransitions)
     warnings->push_back("upper_edge_ambiguous");
@@ -227,6 +230,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   RelocateUnlikeEdges({photo, scale, scene}, &pivot, &parts.blades);
+  RefuseUnlikeEdges(pivot, scale);
   CutWhereEdgesPart({photo, scale, scene}, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
@@ -248,7 +252,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.edges.photo = result.file;
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
-  CollectWarnings(scene, map, pivot, blades, &result.warnings);
+  CollectWarnings(scene, scale, map, pivot, blades, &result.warnings);
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();

@@ -60,6 +60,18 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
 }
 
+TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
+  ScaleResult tilt_known, tilt_unknown;
+  tilt_known.sheet.emplace();
+  const Pivot unlike = PivotSeen(0.05);
+  EXPECT_THROW(RefuseUnlikeEdges(unlike, tilt_known), Refused);
+  EXPECT_NO_THROW(RefuseUnlikeEdges(unlike, tilt_unknown));
+  EXPECT_NO_THROW(RefuseUnlikeEdges(PivotSeen(0.01), tilt_known));
+  Pivot given = unlike;
+  given.source = "hint";
+  EXPECT_NO_THROW(RefuseUnlikeEdges(given, tilt_known));
+}
+
 // The left edge passes the pivot by 9 px less than the right one: so it would if its border were
 // the transition 9 px further out, or the right one's 9 px further in.
 TEST(DoubtUnlikeEdges, DoubtsTheEdgeWhoseOtherTransitionWouldMakeThemAlike) {
