@@ -110,6 +110,16 @@ ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double s
   return SearchForHead(scale, scene, scene.shank_crotch_px + share * overlap, radius_px);
 }
 
+// All about the overlap, for heads beyond doubt: crotches that shadows fill put it elsewhere.
+ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kOfOverlap = 0.6, kLeastEvidence = 12;
+  const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
+  ScrewSearch search = SearchForHead(
+      scale, scene, scene.shank_crotch_px + 0.5 * overlap, kOfOverlap * overlap.norm());
+  search.least_evidence = kLeastEvidence;
+  return search;
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
@@ -157,6 +167,8 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.source = "hint";
   } else {
     pivot.screw = LookForScrew(grey, scale, search, pivot.point_px);
+    if (!pivot.screw)
+      pivot.screw = FindScrew(grey, scale.tone, SearchAllAbout(scale, search.scene));
   }
   if (pivot.screw) {
     const PlacePx head = CentreOf(*pivot.screw);
