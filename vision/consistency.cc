@@ -73,6 +73,7 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
 
 // Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
 // there no other transition accounts for it.
+bool AreSuspect(double asymmetry) { return std::abs(asymmetry) >= 0.010; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
 bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 

@@ -18,8 +18,10 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
-// doubt, or as nearly alike as those of rendered scissors. Between the two nothing is said.
+// doubt, or that it is worth a look whether one is, or as nearly alike as those of rendered
+// scissors. Between the two nothing is said.
 [[nodiscard]] bool AreUnlike(double asymmetry);
+[[nodiscard]] bool AreSuspect(double asymmetry);
 [[nodiscard]] bool AreAlike(double asymmetry);
 
 // Blades mirror each other. Where the edges do not, and would if the other transition beside one of

@@ -61,7 +61,10 @@ std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
     return std::nullopt;
   }
   found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
-  return AreAlike(found.asymmetry) ? std::optional(std::move(found)) : std::nullopt;
+  constexpr double kMuchLess = 0.5;  // of the difference before, where there is one
+  const bool better = !AreSuspect(pivot.asymmetry) ||
+                      std::abs(found.asymmetry) < kMuchLess * std::abs(pivot.asymmetry);
+  return better && AreAlike(found.asymmetry) ? std::optional(std::move(found)) : std::nullopt;
 }
 
 constexpr double kClear = 0.5;  // ambiguity
@@ -137,7 +140,7 @@ void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blade
 
 void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades) {
   if (pivot->source == "geometry" || !view.scale.sheet) return;
-  if (AreUnlike(pivot->asymmetry)) {
+  if (AreSuspect(pivot->asymmetry)) {
     RelocateClearerOne(view, pivot, blades);
   } else {
     RelocateDoubtfulOne(view, pivot, blades);
