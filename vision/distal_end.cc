@@ -167,12 +167,18 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const bool clear = cap && cap->scatter_px < kClearArc;
-  DistalEnds ends{clear ? EndAtSeenCap(edge, *cap) : EndWithoutCap(edge, search), std::nullopt};
   const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip);
-  if (!rival) return ends;
-  ends.rival = EndAtSeenCap(edge, *rival);
-  if (!clear && rival->seen >= kCertainlySeen) ends = {*ends.rival, std::nullopt};
-  return ends;
+  if (clear) {
+    const DistalEnd end = EndAtSeenCap(edge, *cap);
+    return {end, rival ? std::optional(EndAtSeenCap(edge, *rival)) : std::nullopt};
+  }
+  if (!rival) return {EndWithoutCap(edge, search), std::nullopt};
+  // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
+  // mirror the background.
+  const bool beyond = (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
+  const DistalEnd at_rival = EndAtSeenCap(edge, *rival);
+  if (beyond || rival->seen >= kCertainlySeen) return {at_rival, std::nullopt};
+  return {EndWithoutCap(edge, search), at_rival};
 }
 
 }  // namespace bladecurve

@@ -86,6 +86,18 @@ TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
   }
 }
 
+// The small picture lost the tip: no arc where it was presumed.
+TEST(FindDistalEnds, GoesOnAsFarAsTheStepAcrossTheEdge) {
+  constexpr double kRadius = 6, kShort = 40, kAlong = 2.5;
+  std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  edge.resize(edge.size() - static_cast<std::size_t>(kShort));
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip - kShort;
+  const DistalEnd end = FindDistalEnds(Blade(kRadius), edge, search).likely;
+  EXPECT_TRUE(end.arc_seen);
+  EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
+}
+
 // A soft or a hard shadow of the tip lies further on than the tip itself.
 TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
   constexpr double kRadius = 8, kShadowPx = 20, kAlong = 2.5;
