@@ -130,25 +130,32 @@ double LostBeforeTip(const std::vector<Vector2d>& edge, const Vector2d& tip_px) 
 }
 
 // The end by the edge's own course or by what tips usually are, where no arc is seen.
-DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge, const EndSearch& search) {
-  const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
+DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
+                        const EndSearch& search,
+                        const std::optional<Vector2d>& step_end_px) {
   const TipCap usual = UsualTipCap(edge, search.tip);
   const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
-  if (bend.along_sigma_px < usual_sigma_px) return bend;
+  const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
+  // Where the step across the edge goes on far beyond it, a bend is no tip.
+  constexpr double kFar = 3;  // standard uncertainties of where tips usually begin
+  const bool goes_on =
+      step_end_px && (*step_end_px - bend.point_px).dot(AlongChord(edge)) > kFar * usual_sigma_px;
+  if (!goes_on && bend.along_sigma_px < usual_sigma_px) return bend;
   const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
 }
 
-// An arc elsewhere than at the presumed tip, where the step across the edge is lost: grain or a
-// shadow may have been taken for metal, or a part of the blade for background.
+// An arc elsewhere than at the presumed tip, where the step across the edge ends: grain or a shadow
+// may have been taken for metal, or a part of the blade for background.
 std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
                                    const std::vector<Vector2d>& edge,
-                                   const TipSearch& presumed) {
+                                   const TipSearch& presumed,
+                                   const std::optional<Vector2d>& step_end_px) {
   constexpr double kClearArc = 1;  // px of scatter
-  const std::optional<Vector2d> lost_px = FollowStep(grey, edge, presumed);
-  if (!lost_px || (*lost_px - presumed.tip_px).norm() < presumed.reach_px) return std::nullopt;
+  if (!step_end_px || (*step_end_px - presumed.tip_px).norm() < presumed.reach_px)
+    return std::nullopt;
   TipSearch search = presumed;
-  search.tip_px = *lost_px;
+  search.tip_px = *step_end_px;
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
   return cap && cap->scatter_px < kClearArc ? cap : std::nullopt;
 }
@@ -167,18 +174,19 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const bool clear = cap && cap->scatter_px < kClearArc;
-  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip);
+  const std::optional<Vector2d> step_end_px = FollowStep(grey, edge, search.tip);
+  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, step_end_px);
   if (clear) {
     const DistalEnd end = EndAtSeenCap(edge, *cap);
     return {end, rival ? std::optional(EndAtSeenCap(edge, *rival)) : std::nullopt};
   }
-  if (!rival) return {EndWithoutCap(edge, search), std::nullopt};
+  if (!rival) return {EndWithoutCap(edge, search, step_end_px), std::nullopt};
   // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
   // mirror the background.
   const bool beyond = (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
   const DistalEnd at_rival = EndAtSeenCap(edge, *rival);
   if (beyond || rival->seen >= kCertainlySeen) return {at_rival, std::nullopt};
-  return {EndWithoutCap(edge, search), at_rival};
+  return {EndWithoutCap(edge, search, step_end_px), at_rival};
 }
 
 }  // namespace bladecurve

@@ -98,6 +98,24 @@ TEST(FindDistalEnds, GoesOnAsFarAsTheStepAcrossTheEdge) {
   EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
 }
 
+// Where the bevel begins to mirror the ground, the points found may bend away from the edge.
+TEST(FindDistalEnds, TakesNoBendForTheTipWhereTheStepGoesOn) {
+  constexpr double kLost = 219, kBend = 15, kAway = 1.5;  // px
+  cv::Mat picture(160, 340, CV_8UC1, cv::Scalar(200));
+  const std::vector<cv::Point> needle{{-10, 100}, {300, 100}, {20, 60}, {-10, 60}};
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{needle}, 80);
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  edge.resize(200);
+  for (Vector2d& p : edge) {
+    const double beyond = std::max(0.0, (p.x() - kLost + kBend) / kBend);
+    p.y() -= kAway * beyond * beyond;
+  }
+  const DistalEnd end = FindDistalEnds(picture, edge, {kSearch, 0.05}).likely;
+  EXPECT_GT(end.point_px.x(), 0.5 * (kLost + kTip));
+  EXPECT_GT(end.along_sigma_px, 0.4 * (kTip - kLost));
+}
+
 // A soft or a hard shadow of the tip lies further on than the tip itself.
 TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
   constexpr double kRadius = 8, kShadowPx = 20, kAlong = 2.5;
