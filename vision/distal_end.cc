@@ -136,10 +136,13 @@ DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
   const TipCap usual = UsualTipCap(edge, search.tip);
   const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
   const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
-  // Where the step across the edge goes on far beyond it, a bend is no tip.
+  // Far before the presumed tip, or where the step across the edge goes on far beyond it, a bend is
+  // no tip.
   constexpr double kFar = 3;  // standard uncertainties of where tips usually begin
-  const bool goes_on =
-      step_end_px && (*step_end_px - bend.point_px).dot(AlongChord(edge)) > kFar * usual_sigma_px;
+  const auto is_far_before = [&](const Vector2d& place_px) {
+    return (place_px - bend.point_px).dot(AlongChord(edge)) > kFar * usual_sigma_px;
+  };
+  const bool goes_on = is_far_before(usual.end_px) || (step_end_px && is_far_before(*step_end_px));
   if (!goes_on && bend.along_sigma_px < usual_sigma_px) return bend;
   const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));

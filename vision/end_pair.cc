@@ -131,7 +131,7 @@ void DoubtBoth(const Comparison& both, Blades* blades) {
   SetSigma(both.lower, std::hypot(both.lower.sigma, doubt), &blades->lower);
 }
 
-// Of the ends that either blade may have, the two at like lengths whose arcs are seen best: shadows
+// Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
 // of tips and borders of bevels end elsewhere on the two blades, or are fainter.
 void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   constexpr double kMoreClearly = 1.5;  // times the evidence of the likely ends
@@ -149,7 +149,7 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
   for (const DistalEnd& u : candidates(blades->upper)) {
     for (const DistalEnd& l : candidates(blades->lower)) {
       const double seen = evidence(u, l);
-      if (seen <= most) continue;
+      if (seen <= most || !u.arc_seen || !l.arc_seen) continue;
       most = seen;
       blades->upper.end = u;
       blades->lower.end = l;

@@ -130,6 +130,15 @@ TEST(AgreeOnEnds, TakesNoRivalThatTheOtherBladeContradicts) {
   EXPECT_FALSE(blades.ends_contradict);
 }
 
+// Nothing on the other blade confirms it.
+TEST(AgreeOnEnds, TakesNoRivalBesideAnEndWithoutArc) {
+  Blades blades{BladeOnRay(true, kLength, 20, false), BladeOnRay(false, kLength, 20, false)};
+  blades.upper.rival_end = BladeOnRay(true, kLength - 25, 1, true).end;
+  blades.upper.rival_end->evidence = 100;
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+}
+
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
   Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
   Pivot beyond = PivotSeen();
