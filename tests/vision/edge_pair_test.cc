@@ -10,8 +10,10 @@
 #include <cmath>
 #include <filesystem>
 #include <numbers>
+#include <utility>
 #include <vector>
 
+#include "measured_blades.h"
 #include "process_folder.h"
 #include "vision/png_writer.h"
 #include "vision/render.h"
@@ -71,6 +73,25 @@ TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper), kClosePx) << elevation_rad;
     EXPECT_LT(FarFrom(truth.lower, edges.lower), kClosePx) << elevation_rad;
+  }
+}
+
+// A soft shadow that begins at the edge looks like blur on both sides where the edge is faint.
+TEST(LocateBlades, TakesNoShadowForBlurThatPrintAndTheOtherBladeDoNotShow) {
+  constexpr double kSofter = 1.1;   // times the print's blur
+  constexpr double kClosePx = 1.8;  // 2.1 if the shadow is taken for blur
+  for (const auto& [elevation_rad, direction_rad] :
+       {std::pair(62 * kDegree, 315 * kDegree), std::pair(72 * kDegree, 270 * kDegree)}) {
+    SceneSpec spec = testing::SceneWithMarkers();
+    spec.light.elevation_rad = elevation_rad;
+    spec.light.direction_rad = direction_rad;
+    spec.light.shadow = 0.75;
+    spec.light.shadow_blur_mm = 0.8;
+    spec.light.glint = 0;
+    const testing::Measured measured(spec);
+    const LocatedEdge& lower = measured.blades.lower.edge;
+    EXPECT_LT(lower.blur_px, kSofter * measured.scale.markers[0].blur_px) << elevation_rad;
+    EXPECT_LT(FarFrom(measured.truth.lower, lower), kClosePx) << elevation_rad;
   }
 }
 
