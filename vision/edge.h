@@ -28,7 +28,7 @@ struct EdgeOptions {
   bool model_background_slope = true;  // shadows: grey values may slope on either side
   std::optional<double>
       blur_px;  // known from another edge of the photograph; an overexposed blade hides its own
-  // What print or the other blade shows: a shadow along the edge looks like more blur.
+  // What print beside it shows: a shadow along the edge looks like more blur.
   double most_blur_px = std::numeric_limits<double>::infinity();
   bool may_be_softer = true;  // the bound is lifted where the blade's side is as soft
 };

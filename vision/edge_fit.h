@@ -20,8 +20,8 @@ struct EdgeFitOptions {
   static constexpr double kFree = 1e3;
   double blur_px = 0.9;         // known to a factor of two; 0.9 is usual
   bool blur_known = false;      // blur_px is right and stays
-  double most_blur_px = kFree;
-  bool may_be_softer = true;  // where the blade's side is as soft, blur may be more
+  double most_blur_px = kFree;  // blur is no more
+  bool may_be_softer = true;    // unless the blade's side is as soft
   bool correct_curvature = true;
   bool model_slopes = true;
 };

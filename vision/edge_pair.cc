@@ -117,9 +117,8 @@ class BladeLocator {
   }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
-    const EdgeGuess guess = GuessFor(scene_, left);
-    LocatedEdge edge = InBestChannel(guess);
-    return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), guess) : edge;
+    LocatedEdge edge = InBestChannel(GuessFor(scene_, left));
+    return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
   }
 
   [[nodiscard]] LocatedEdge LocateOrTrace(bool left) {
@@ -155,17 +154,21 @@ class BladeLocator {
       return HasDarkBand(edge) && edge.rival_px < 0;
     };
     if (!banded(*left) || !banded(*right)) return;
-    const std::optional<LocatedEdge> l = AtRival(*left, true), r = AtRival(*right, false);
+    const auto l = AlongSide(left->rival_path_px, *left, true);
+    const auto r = AlongSide(right->rival_path_px, *right, false);
     if (!l || !r) return;
     *left = *l;
     *right = *r;
   }
 
  private:
-  [[nodiscard]] std::optional<LocatedEdge> AtRival(const LocatedEdge& edge, bool left) {
+  // The edge once more along one side of the dark band beside it, if it is seen there.
+  [[nodiscard]] std::optional<LocatedEdge> AlongSide(std::vector<Vector2d> side_px,
+                                                     const LocatedEdge& edge,
+                                                     bool left) const {
     constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
     EdgeGuess guess = GuessFor(scene_, left);
-    guess.path_px = edge.rival_path_px;
+    guess.path_px = std::move(side_px);
     guess.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
     try {
       return LocateEdge(photo_.grey(), tone_, guess, options_);
@@ -176,20 +179,13 @@ class BladeLocator {
 
   // Of the two sides of a dark band, the inner one is the blade's border if the band has the
   // background's colour, the outer one if it has the blade's.
-  [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, const EdgeGuess& guess) {
-    const SceneBlade& blade = guess.blade_on_left ? scene_.left : scene_.right;
+  [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
+    const SceneBlade& blade = left ? scene_.left : scene_.right;
     const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px);
     if (band == DarkBand::kUnknown) return edge;
     const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
-    constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
-    EdgeGuess settled = guess;
-    settled.path_px = want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px;
-    settled.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
-    try {
-      return LocateEdge(photo_.grey(), tone_, settled, options_);
-    } catch (const Refused&) {
-      return edge;
-    }
+    return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)
+        .value_or(edge);
   }
 
   [[nodiscard]] const cv::Mat& Colours() {

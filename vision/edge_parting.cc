@@ -11,7 +11,6 @@
 
 #include "vision/consistency.h"
 #include "vision/edge_curve.h"
-#include "vision/mirror_line.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -19,8 +18,6 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kSigmaPerMedian = 1.4826;
 
 // An edge's inlying points about the mirror line: places along it, distances from it towards the
 // blade's own side. In units of the plane map.
@@ -254,10 +251,10 @@ class Comparison {
 
 }  // namespace
 
-void CutWhereEdgesPart(const RelocationView& view, const Pivot& pivot, Blades* blades) {
-  if (pivot.source == "geometry" || !view.scale.sheet || AreUnlike(pivot.asymmetry)) return;
+void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  if (!KnowsMirror(view, pivot) || AreUnlike(pivot.asymmetry)) return;
   const Blades before = *blades;
-  Comparison comparison(LineBetween(*view.scale.map, pivot.point_px, *blades), blades);
+  Comparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();
   try {
     if (was_cut.upper) TrimToFree(view.photo, view.scene, &blades->upper, comparison.BeyondUpper());

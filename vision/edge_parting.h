@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vision/edge_relocation.h"
+#include "vision/mirror_line.h"
 
 namespace bladecurve {
 
@@ -10,6 +10,6 @@ namespace bladecurve {
 // towards their ends, one of them has gone over to another line: a bevel's inner border that meets
 // the edge at the tip, the other blade's edge at the crotch. That end is cut off: of the edge that
 // leaves its own course there, of both where either might.
-void CutWhereEdgesPart(const RelocationView& view, const Pivot& pivot, Blades* blades);
+void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve

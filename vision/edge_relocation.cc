@@ -10,7 +10,6 @@
 
 #include "vision/consistency.h"
 #include "vision/edge_pair.h"
-#include "vision/mirror_line.h"
 #include "vision/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
@@ -39,7 +38,7 @@ struct Relocated {
 };
 
 // `blade` where `other` puts it, if it is seen there and the two are alike then.
-std::optional<Relocated> LookWhereMirrored(const RelocationView& view,
+std::optional<Relocated> LookWhereMirrored(const MirrorView& view,
                                            const MirrorLine& line,
                                            const Pivot& pivot,
                                            const LocatedBlade& blade,
@@ -103,8 +102,8 @@ bool IsBetter(const std::optional<Relocated>& found,
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
-void RelocateClearerOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
-  const MirrorLine line = LineBetween(*view.scale.map, pivot->point_px, *blades);
+void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
+  const MirrorLine line = LineBetween(view, *pivot, *blades);
   const std::optional<Relocated> upper =
       LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
   const std::optional<Relocated> lower =
@@ -122,13 +121,13 @@ void RelocateClearerOne(const RelocationView& view, Pivot* pivot, Blades* blades
 }
 
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
-void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blades) {
+void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
   const bool is_upper = IsDoubtful(blades->upper.edge);
   LocatedBlade& doubtful = is_upper ? blades->upper : blades->lower;
   const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
-  const MirrorLine line = LineBetween(*view.scale.map, pivot->point_px, *blades);
+  const MirrorLine line = LineBetween(view, *pivot, *blades);
   std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, doubtful, other);
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
@@ -138,8 +137,8 @@ void RelocateDoubtfulOne(const RelocationView& view, Pivot* pivot, Blades* blade
 
 }  // namespace
 
-void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades) {
-  if (pivot->source == "geometry" || !view.scale.sheet) return;
+void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
+  if (!KnowsMirror(view, *pivot)) return;
   if (AreSuspect(pivot->asymmetry)) {
     RelocateClearerOne(view, pivot, blades);
   } else {

@@ -2,20 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "vision/located_blade.h"
-#include "vision/photo.h"
-#include "vision/pivot.h"
-#include "vision/scale.h"
-#include "vision/scene.h"
+#include "vision/mirror_line.h"
 
 namespace bladecurve {
-
-// A photograph and what is known of it before the edges are compared.
-struct RelocationView {
-  const Photo& photo;
-  const ScaleResult& scale;
-  const Scene& scene;
-};
 
 // Blades mirror each other about the line through the pivot. Where the edges do not, and markers
 // tell the tilt of the view, each is looked for anew where the other one's mirror image lies; if
@@ -23,6 +12,6 @@ struct RelocationView {
 // where it was, it is taken from there, trimmed, and pivot->asymmetry says how alike the two are
 // then. Where they do, but one of them is doubtful, that one is looked for, and taken if it is less
 // doubtful there.
-void RelocateUnlikeEdges(const RelocationView& view, Pivot* pivot, Blades* blades);
+void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve

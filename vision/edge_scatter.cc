@@ -79,7 +79,6 @@ void RejectStrays(std::vector<LocatedEdgePoint>& points) {
 
 // Texture, roughness and compression scatter the points more than the pixels' noise: how much more.
 double ExcessOf(const std::vector<double>& scatter) {
-  constexpr double kSigmaPerMedian = 1.4826;
   return std::max(1.0, kSigmaPerMedian * MedianAbsolute(scatter));
 }
 

@@ -229,9 +229,10 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
-  RelocateUnlikeEdges({photo, scale, scene}, &pivot, &parts.blades);
+  const MirrorView view{photo, scale, scene};
+  RelocateUnlikeEdges(view, &pivot, &parts.blades);
   RefuseUnlikeEdges(pivot, scale);
-  CutWhereEdgesPart({photo, scale, scene}, pivot, &parts.blades);
+  CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
   for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) KeepFree(scene, blade);

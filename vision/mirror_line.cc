@@ -15,14 +15,19 @@ Vector2d MirrorLine::Reflected(const Vector2d& image_px) const {
   return map.ImageFromPlane(pivot + 2 * offset.dot(direction) * direction - offset);
 }
 
-MirrorLine LineBetween(const PlaneMap& map, const Vector2d& pivot_px, const Blades& blades) {
+bool KnowsMirror(const MirrorView& view, const Pivot& pivot) {
+  return view.scale.sheet && pivot.source != "geometry";
+}
+
+MirrorLine LineBetween(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+  const PlaneMap& map = *view.scale.map;
   const auto direction = [&](const LocatedBlade& blade) {
     return (map.PlaneFromImage(blade.used.back().trend_px) -
             map.PlaneFromImage(blade.used.front().trend_px))
         .normalized();
   };
   return {map,
-          map.PlaneFromImage(pivot_px),
+          map.PlaneFromImage(pivot.point_px),
           (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 

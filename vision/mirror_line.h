@@ -5,7 +5,11 @@
 #include <Eigen/Core>
 
 #include "vision/located_blade.h"
+#include "vision/photo.h"
+#include "vision/pivot.h"
 #include "vision/plane_map.h"
+#include "vision/scale.h"
+#include "vision/scene.h"
 
 namespace bladecurve {
 
@@ -20,10 +24,21 @@ struct MirrorLine {
   [[nodiscard]] Eigen::Vector2d Reflected(const Eigen::Vector2d& image_px) const;
 };
 
+// A photograph and what is known of it before the edges are compared.
+struct MirrorView {
+  const Photo& photo;
+  const ScaleResult& scale;
+  const Scene& scene;
+};
+
+// Whether edges are to mirror each other about a line through the pivot: markers tell the tilt of
+// the view, and the pivot lies not just where the edges do so.
+[[nodiscard]] bool KnowsMirror(const MirrorView& view, const Pivot& pivot);
+
 // Through the pivot, halfway between the edges' directions: an edge that lies aside of its place
-// runs much as it should.
-[[nodiscard]] MirrorLine LineBetween(const PlaneMap& map,
-                                     const Eigen::Vector2d& pivot_px,
+// runs much as it should. Where the mirror is known.
+[[nodiscard]] MirrorLine LineBetween(const MirrorView& view,
+                                     const Pivot& pivot,
                                      const Blades& blades);
 
 }  // namespace bladecurve

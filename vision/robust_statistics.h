@@ -7,6 +7,9 @@
 
 namespace bladecurve {
 
+// Of a normal distribution: standard deviation over median of the absolute values.
+inline constexpr double kSigmaPerMedian = 1.4826;
+
 // All return 0 for no values.
 
 // The value that `share` of the values lie below; share in [0, 1].

@@ -158,7 +158,7 @@ Arc BestArc(const std::vector<EndSeen>& ends, const std::vector<EndSeen>& follow
   }
   if (off.size() < 5) return {};
   arc.seen = static_cast<int>(off.size());
-  arc.scatter = 1.4826 * Median(off);
+  arc.scatter = kSigmaPerMedian * Median(off);
   arc.step = Median(steps_on_arc);
   arc.score = 2.0 * arc.seen - static_cast<double>(starts.size()) - arc.scatter -
               kDenialPenalty * Denials(followed, arc);

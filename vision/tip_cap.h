@@ -39,8 +39,8 @@ struct TipSearch {
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
 
-// The last point of the edge, continued, at which there is a step across it like that along its last
-// part. std::nullopt where it goes on to the picture's border, or stood out nowhere.
+// The last point of the edge, continued, at which there is a step across it like that along its
+// last part. std::nullopt where it goes on to the picture's border, or stood out nowhere.
 [[nodiscard]] std::optional<Eigen::Vector2d> FollowStep(const cv::Mat& grey,
                                                         const std::vector<Eigen::Vector2d>& edge,
                                                         const TipSearch& search);

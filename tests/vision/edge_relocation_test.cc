@@ -30,10 +30,10 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
     LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
     const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
     measured.Misplace(&misplaced, kAsidePx);
-    ASSERT_GT(FarFrom(truth, misplaced), 0.9 * kAsidePx);
+    ASSERT_GT(FarFrom(truth, misplaced.used), 0.9 * kAsidePx);
     Relocate(&measured);
-    EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper), kClosePx) << upper;
-    EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower), kClosePx) << upper;
+    EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx) << upper;
+    EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx) << upper;
     EXPECT_LT(std::abs(measured.pivot.asymmetry), kAlike) << upper;
   }
 }
@@ -46,9 +46,9 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeOutsideOfAClearerLineOnTheBlade) {
     LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
     const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
     measured.Misplace(&misplaced, -kInsidePx, Measured::kStrong);
-    ASSERT_GT(FarFrom(truth, misplaced), 0.9 * kInsidePx);
+    ASSERT_GT(FarFrom(truth, misplaced.used), 0.9 * kInsidePx);
     Relocate(&measured);
-    EXPECT_LT(FarFrom(truth, misplaced), kClosePx) << upper;
+    EXPECT_LT(FarFrom(truth, misplaced.used), kClosePx) << upper;
   }
 }
 
@@ -63,9 +63,9 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
     const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
     measured.MakeClear(upper ? &measured.blades.lower : &measured.blades.upper);
     measured.Lose(&lost, kLittlePx);
-    ASSERT_GT(FarFrom(truth, lost), 0.7 * kLittlePx);
+    ASSERT_GT(FarFrom(truth, lost.used), 0.7 * kLittlePx);
     Relocate(&measured);
-    EXPECT_LT(FarFrom(truth, lost), kClosePx) << upper;
+    EXPECT_LT(FarFrom(truth, lost.used), kClosePx) << upper;
     EXPECT_LT(lost.edge.common_sigma_px, kLittlePx) << upper;
   }
 }

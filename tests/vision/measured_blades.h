@@ -14,7 +14,7 @@
 
 #include "process_folder.h"
 #include "vision/edge_pair.h"
-#include "vision/edge_relocation.h"
+#include "vision/mirror_line.h"
 #include "vision/pivot_geometry.h"
 #include "vision/png_writer.h"
 #include "vision/render.h"
@@ -86,7 +86,7 @@ struct Measured {
     Compare();
   }
 
-  [[nodiscard]] RelocationView View() const { return {photo, scale, scene}; }
+  [[nodiscard]] MirrorView View() const { return {photo, scale, scene}; }
 
   static Photo PhotoOf(const SceneSpec& spec) {
     const std::filesystem::path file = ProcessFolder() / "picture.png";
@@ -108,10 +108,11 @@ struct Measured {
   Pivot pivot;
 };
 
-// Median distance of the points used from the true edge, px.
-inline double FarFrom(const EdgeTruth& truth, const LocatedBlade& blade) {
+// Median distance of the inlying points from the true edge, px.
+inline double FarFrom(const EdgeTruth& truth, const std::vector<LocatedEdgePoint>& points) {
   std::vector<double> off;
-  for (const LocatedEdgePoint& p : blade.used) {
+  for (const LocatedEdgePoint& p : points) {
+    if (!p.inlier) continue;
     double nearest = 1e9;
     for (const Vector2d& q : truth.px)
       nearest = std::min(nearest,
