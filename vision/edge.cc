@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "vision/edge_choice.h"
 #include "vision/edge_common.h"
@@ -13,6 +16,7 @@
 #include "vision/edge_path.h"
 #include "vision/edge_scatter.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -70,16 +74,16 @@ void RefuseIfBroken(double gap) {
                     " % of the blade; use another background or light");
 }
 
-}  // namespace
+// What edges are looked for in.
+struct Picture {
+  const cv::Mat& grey;
+  const ToneCurve& tone;
+  const EdgeOptions& options;
+};
 
-LocatedEdge LocateEdge(const cv::Mat& grey,
-                       const ToneCurve& tone,
-                       const EdgeGuess& guess,
-                       const EdgeOptions& options) {
-  Check(grey, guess, options);
-  const EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
-  RefuseIfTooShort(rough);
-  const ChosenTransition chosen = ChooseTransition(grey, rough, guess.search_px);
+// The edge as the fit sees it, along the transition that was chosen.
+LocatedEdge FitAlong(const ChosenTransition& chosen, bool blade_on_left, const Picture& picture) {
+  const EdgeOptions& options = picture.options;
   RefuseIfUnseen(chosen.support, kLeastClear);
   EdgeFitOptions fit_options;
   fit_options.inner_px = chosen.inner_px;
@@ -90,7 +94,8 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   fit_options.may_be_softer = options.may_be_softer;
   fit_options.correct_curvature = options.correct_curvature;
   fit_options.model_slopes = options.model_background_slope;
-  const EdgeFit fit = FitEdge(grey, tone, chosen.points, guess.blade_on_left, fit_options);
+  const EdgeFit fit =
+      FitEdge(picture.grey, picture.tone, chosen.points, blade_on_left, fit_options);
   RefuseIfUnseen(fit.seen, kLeastPlaced);
   LocatedEdge edge = PointsFromFit(fit, options);
   edge.overexposed = fit.overexposed;
@@ -99,8 +104,80 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
   edge.ambiguity = std::max({chosen.ambiguity, 1 - chosen.support, gap / kMostBroken});
   edge.rival_px = chosen.rival_px;
   edge.rival_path_px = chosen.rival;
-  edge.common_sigma_px = CommonSigma(fit, tone, chosen, options.blur_px.has_value());
+  edge.common_sigma_px = CommonSigma(fit, picture.tone, chosen, options.blur_px.has_value());
   return edge;
+}
+
+// The same, the shadow being taken for the blade: it ends at an inner transition then, as a bevel
+// does, of which the fit knows.
+LocatedEdge FitFromTheShadow(ChosenTransition chosen, bool blade_on_left, const Picture& picture) {
+  std::swap(chosen.inner_px, chosen.outer_px);
+  LocatedEdge edge = FitAlong(chosen, !blade_on_left, picture);
+  for (LocatedEdgePoint& point : edge.points) {
+    point.normal = -point.normal;
+    point.contrast = -point.contrast;
+  }
+  return edge;
+}
+
+// Median of one of the numbers of the points that count.
+double MedianOf(double LocatedEdgePoint::*number, const LocatedEdge& edge) {
+  std::vector<double> numbers;
+  for (const LocatedEdgePoint& point : edge.points) {
+    if (point.inlier) numbers.push_back(point.*number);
+  }
+  return Median(std::move(numbers));
+}
+
+double TotalSigma(const LocatedEdge& edge) {
+  return std::hypot(MedianOf(&LocatedEdgePoint::sigma_px, edge), edge.common_sigma_px);
+}
+
+template <typename Fit>
+std::optional<LocatedEdge> UnlessRefused(const Fit& fit) {
+  try {
+    return fit();
+  } catch (const Refused&) {
+    return std::nullopt;
+  }
+}
+
+EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
+  Check(grey, guess, options);
+  EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
+  RefuseIfTooShort(rough);
+  return rough;
+}
+
+}  // namespace
+
+double TypicalContrast(const LocatedEdge& edge) {
+  return MedianOf(&LocatedEdgePoint::contrast, edge);
+}
+
+LocatedEdge LocateEdge(const cv::Mat& grey,
+                       const ToneCurve& tone,
+                       const EdgeGuess& guess,
+                       const EdgeOptions& options) {
+  const EdgePath rough = RoughPath(grey, guess, options);
+  return FitAlong(
+      ChooseTransition(grey, rough, guess.search_px), guess.blade_on_left, {grey, tone, options});
+}
+
+LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const EdgeGuess& guess,
+                               const EdgeOptions& options) {
+  const EdgePath rough = RoughPath(grey, guess, options);
+  const ChosenTransition fall = ChooseFall(grey, rough, guess.search_px);
+  const Picture picture{grey, tone, options};
+  // A shadow that ends softly is a slope beside the blade, one that ends sharply another step.
+  const auto sharp =
+      UnlessRefused([&] { return FitFromTheShadow(fall, guess.blade_on_left, picture); });
+  const auto fit_soft = [&] { return FitAlong(fall, guess.blade_on_left, picture); };
+  if (!sharp) return fit_soft();
+  const auto soft = UnlessRefused(fit_soft);
+  return soft && TotalSigma(*soft) < TotalSigma(*sharp) ? *soft : *sharp;
 }
 
 }  // namespace bladecurve

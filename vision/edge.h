@@ -57,6 +57,9 @@ struct LocatedEdge {
   std::vector<Eigen::Vector2d> rival_path_px;  // the other transition, to a few px
 };
 
+// Median over the points that count: background minus blade, linear light.
+[[nodiscard]] double TypicalContrast(const LocatedEdge& edge);
+
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw
 // pixels in a narrow band. Of several transitions (bevel line, glint, shadow border) it takes the
 // blade's outer border. Throws Refused{kLowContrast, kBlurred, kEdgeTooShort}.
@@ -64,5 +67,12 @@ struct LocatedEdge {
                                      const ToneCurve& tone,
                                      const EdgeGuess& guess,
                                      const EdgeOptions& options = {});
+
+// The same where a shadow begins at the blade's border, so that light falls there, going outwards,
+// and rises again at the shadow's border, sharply or slowly: along the clearest fall of light.
+[[nodiscard]] LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
+                                             const ToneCurve& tone,
+                                             const EdgeGuess& guess,
+                                             const EdgeOptions& options = {});
 
 }  // namespace bladecurve

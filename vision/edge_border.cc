@@ -208,6 +208,18 @@ SurveyedBorder ClearestSurvey(const cv::Mat& grey, const EdgePath& guess, double
   return SeenShareOf(averaged) > kMuchMore * seen ? averaged : usual;
 }
 
+// What the blade's texture does within the search range: beyond it a soft shadow is no texture.
+double BladeResponse(const Survey& survey, double search_px) {
+  constexpr double kLeastResponse = 1e-3;                     // a quarter of a grey level
+  constexpr double kShare = 0.25, kSigmaPerQuantile = 3.138;  // keeps clear of a fall next to it
+  std::vector<double> heights;
+  for (int station = 0; station < survey.map.stations; ++station) {
+    for (int row = kStepMargin; survey.FromGuess(station, row) < -search_px; ++row)
+      heights.push_back(std::abs(survey.map.height[survey.map.At(station, row)]));
+  }
+  return std::max(kSigmaPerQuantile * SampleQuantile(std::move(heights), kShare), kLeastResponse);
+}
+
 }  // namespace
 
 double HeightUnder(const StepMap& map, const StepLine& line) {
@@ -221,6 +233,22 @@ bool FallsDeeper(const StepMap& map, int station, int row, double line_height) {
   constexpr double kFar = 1.25;  // times the line's height, which a soft step shows little of
   const float* height = &map.height[map.At(station, row)];
   return *height < -kFar * std::abs(line_height) && *height <= height[-1] && *height <= height[1];
+}
+
+SurveyedBorder FindFall(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  constexpr double kSigmas =
+      3;  // texture of normal distribution falls by as much once in 800 places
+  SurveyedBorder border{SurveyGuess(grey, guess, search_px), {}};
+  const StepMap& map = border.survey.map;
+  const double clear = kSigmas * BladeResponse(border.survey, search_px);
+  const auto score = [&](int station, int row) {
+    if (std::abs(border.survey.FromGuess(station, row)) > search_px) return kForbidden;
+    const float* height = &map.height[map.At(station, row)];
+    const bool deepest = *height < 0 && *height <= height[-1] && *height <= height[1];
+    return deepest ? static_cast<float>(1 - std::exp2(-std::pow(*height / clear, 2))) : 0.0F;
+  };
+  border.line = FindBestLine(map, Scores(border.survey, score), kStiffBend);
+  return border;
 }
 
 SurveyedBorder FindBorder(const cv::Mat& grey, const EdgePath& guess, double search_px) {

@@ -22,6 +22,10 @@ struct SurveyedBorder {
                                         const EdgePath& guess,
                                         double search_px);
 
+// The line along which light falls most clearly, going outwards; its score is the share of it that
+// is seen.
+[[nodiscard]] SurveyedBorder FindFall(const cv::Mat& grey, const EdgePath& guess, double search_px);
+
 inline constexpr float kStiffBend =
     0.5F;  // once straightened, it takes two clear stations to leave a line
 

@@ -100,6 +100,15 @@ void CompareWithRival(const Survey& survey,
       std::clamp(rival.score / std::max(line.score, 1e-6), 0.0, 1.0) * std::min(as_high, 1.0);
 }
 
+// The line itself, and how far from it others lie.
+void TakeLine(const Survey& survey, const StepLine& line, ChosenTransition& chosen) {
+  const int spacing = survey.map.layout.spacing, samples = survey.path.size();
+  chosen.inner_px = Spread(FreeDistances(survey.map, line, -1), spacing, samples);
+  chosen.outer_px = Spread(FreeDistances(survey.map, line, 1), spacing, samples);
+  constexpr double kStiffness = 4;  // bends within three stations are noise
+  chosen.points = PointsOn(survey, line, kStiffness);
+}
+
 }  // namespace
 
 ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
@@ -112,11 +121,16 @@ ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, do
     chosen.blur_px = std::max(chosen.blur_px, BlurUnder(survey.map, line.rows));
   chosen.support = SeenShare(survey, line);
   CompareWithRival(survey, line, search_px, chosen);
-  const int spacing = survey.map.layout.spacing, samples = survey.path.size();
-  chosen.inner_px = Spread(FreeDistances(survey.map, line, -1), spacing, samples);
-  chosen.outer_px = Spread(FreeDistances(survey.map, line, 1), spacing, samples);
-  constexpr double kStiffness = 4;  // bends within three stations are noise
-  chosen.points = PointsOn(survey, line, kStiffness);
+  TakeLine(survey, line, chosen);
+  return chosen;
+}
+
+ChosenTransition ChooseFall(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  const auto [survey, line] = FindFall(grey, guess, search_px);
+  ChosenTransition chosen;
+  chosen.blur_px = survey.map.blur_px;
+  chosen.support = std::clamp(line.score, 0.0, 1.0);
+  TakeLine(survey, line, chosen);
   return chosen;
 }
 

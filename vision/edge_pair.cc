@@ -78,6 +78,14 @@ bool HasDarkBand(const LocatedEdge& edge) {
   return edge.ambiguity > kAsGood && std::abs(edge.rival_px) >= kNarrowest;
 }
 
+// Vague although print bounds its blur, and no second line near: light that rises outwards so
+// slowly is a shadow's border.
+bool IsShadowsBorder(const LocatedEdge& edge, double most_blur_px) {
+  constexpr double kVague = 0.75;  // px
+  return std::isfinite(most_blur_px) && edge.common_sigma_px > kVague && !HasDarkBand(edge) &&
+         TypicalContrast(edge) > 0;
+}
+
 // Of the markers' sides: the blade's edge, nearer to the camera by a plate or so, is as sharp.
 double MostBlur(const std::vector<SeenMarker>& markers) {
   std::vector<double> blurs;
@@ -116,8 +124,20 @@ class BladeLocator {
     }
   }
 
+  // The edge along `guess` as the place where a shadow begins, if it is seen.
+  [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess) const {
+    try {
+      LocatedEdge edge = LocateEdgeInShadow(photo_.grey(), tone_, guess, options_);
+      if (TypicalContrast(edge) < 0) return edge;
+    } catch (const Refused&) {
+      // nothing seen there
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] LocatedEdge Locate(bool left) {
     LocatedEdge edge = InBestChannel(GuessFor(scene_, left));
+    if (IsShadowsBorder(edge, options_.most_blur_px)) edge = LeaveSoftShadow(std::move(edge), left);
     return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
   }
 
@@ -162,6 +182,18 @@ class BladeLocator {
   }
 
  private:
+  // From a soft shadow's border to where the shadow begins, if that is seen.
+  [[nodiscard]] LocatedEdge LeaveSoftShadow(LocatedEdge edge, bool left) const {
+    constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty
+    const double farthest = kFarthest * edge.common_sigma_px;
+    EdgeGuess guess = GuessFor(scene_, left);
+    guess.path_px.clear();
+    for (const LocatedEdgePoint& p : edge.points)
+      guess.path_px.push_back(p.trend_px - 0.5 * (kNearest + farthest) * p.normal);
+    guess.search_px = 0.5 * (farthest - kNearest);
+    return InShadow(guess).value_or(std::move(edge));
+  }
+
   // The edge once more along one side of the dark band beside it, if it is seen there.
   [[nodiscard]] std::optional<LocatedEdge> AlongSide(std::vector<Vector2d> side_px,
                                                      const LocatedEdge& edge,
@@ -230,6 +262,13 @@ LocatedEdge LocateBladeAlong(const Photo& photo,
                              const Scene& scene,
                              const EdgeGuess& guess) {
   return BladeLocator(photo, scale, scene).InBestChannel(guess);
+}
+
+std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
+                                               const ScaleResult& scale,
+                                               const Scene& scene,
+                                               const EdgeGuess& guess) {
+  return BladeLocator(photo, scale, scene).InShadow(guess);
 }
 
 }  // namespace bladecurve

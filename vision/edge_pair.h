@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "vision/edge.h"
 #include "vision/photo.h"
 #include "vision/scale.h"
@@ -28,5 +30,11 @@ struct BladeEdges {
                                            const ScaleResult& scale,
                                            const Scene& scene,
                                            const EdgeGuess& guess);
+
+// The same where a shadow begins at the edge: nothing if no fall of light is seen along `guess`.
+[[nodiscard]] std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
+                                                             const ScaleResult& scale,
+                                                             const Scene& scene,
+                                                             const EdgeGuess& guess);
 
 }  // namespace bladecurve

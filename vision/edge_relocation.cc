@@ -12,20 +12,11 @@
 #include "vision/edge_pair.h"
 #include "vision/pivot_geometry.h"
 #include "vision/refused.h"
-#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-double Contrast(const LocatedEdge& edge) {
-  std::vector<double> contrasts;
-  for (const LocatedEdgePoint& p : edge.points) {
-    if (p.inlier) contrasts.push_back(std::abs(p.contrast));
-  }
-  return contrasts.empty() ? 0 : Median(std::move(contrasts));
-}
 
 EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
   return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
@@ -37,33 +28,64 @@ struct Relocated {
   double asymmetry = 0;
 };
 
+double LengthPx(const Pivot& pivot, const LocatedBlade& blade) {
+  return (blade.end.point_px - pivot.point_px).norm();
+}
+
+// Where `other` puts `blade`.
+EdgeGuess GuessWhereMirrored(const MirrorLine& line,
+                             const Pivot& pivot,
+                             const LocatedBlade& blade,
+                             const LocatedBlade& other,
+                             double nearest_px) {
+  constexpr double kOfWay = 0.35;  // that the edge would move
+  EdgeGuess guess;
+  for (const LocatedEdgePoint& p : other.edge.points) {
+    if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
+  }
+  guess.blade_on_left = blade.on_left;
+  guess.search_px =
+      std::max(nearest_px, kOfWay * std::abs(pivot.asymmetry) * LengthPx(pivot, other));
+  return guess;
+}
+
+// The blade with that edge, if enough of it is free.
+std::optional<Relocated> WithEdge(const MirrorView& view,
+                                  const Pivot& pivot,
+                                  LocatedEdge edge,
+                                  const LocatedBlade& blade,
+                                  const LocatedBlade& other) {
+  Relocated found;
+  found.blade.on_left = blade.on_left;
+  found.blade.edge = std::move(edge);
+  try {
+    TrimToFree(view.photo, view.scene, &found.blade);
+  } catch (const Refused&) {
+    return std::nullopt;
+  }
+  found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
+  return found;
+}
+
 // `blade` where `other` puts it, if it is seen there and the two are alike then.
 std::optional<Relocated> LookWhereMirrored(const MirrorView& view,
                                            const MirrorLine& line,
                                            const Pivot& pivot,
                                            const LocatedBlade& blade,
                                            const LocatedBlade& other) {
-  constexpr double kNearest = 5, kOfWay = 0.35;  // px; of the way that the edge would move
-  EdgeGuess guess;
-  for (const LocatedEdgePoint& p : other.edge.points) {
-    if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
-  }
-  guess.blade_on_left = blade.on_left;
-  const double length_px = (other.end.point_px - pivot.point_px).norm();
-  guess.search_px = std::max(kNearest, kOfWay * std::abs(pivot.asymmetry) * length_px);
-  Relocated found;
-  found.blade.on_left = blade.on_left;
+  constexpr double kNearest = 5;  // px
+  std::optional<Relocated> found;
   try {
-    found.blade.edge = LocateBladeAlong(view.photo, view.scale, view.scene, guess);
-    TrimToFree(view.photo, view.scene, &found.blade);
+    const EdgeGuess guess = GuessWhereMirrored(line, pivot, blade, other, kNearest);
+    found = WithEdge(
+        view, pivot, LocateBladeAlong(view.photo, view.scale, view.scene, guess), blade, other);
   } catch (const Refused&) {
-    return std::nullopt;
   }
-  found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
+  if (!found) return std::nullopt;
   constexpr double kMuchLess = 0.5;  // of the difference before, where there is one
   const bool better = !AreSuspect(pivot.asymmetry) ||
-                      std::abs(found.asymmetry) < kMuchLess * std::abs(pivot.asymmetry);
-  return better && AreAlike(found.asymmetry) ? std::optional(std::move(found)) : std::nullopt;
+                      std::abs(found->asymmetry) < kMuchLess * std::abs(pivot.asymmetry);
+  return better && AreAlike(found->asymmetry) ? found : std::nullopt;
 }
 
 constexpr double kClear = 0.5;  // ambiguity
@@ -98,7 +120,8 @@ bool IsBetter(const std::optional<Relocated>& found,
   if (!found) return false;
   const LocatedEdge& edge = found->blade.edge;
   if (seen_alone_outside && edge.ambiguity <= kClearAlone) return true;
-  return edge.ambiguity <= kClear && Contrast(edge) > Contrast(blade.edge);
+  return edge.ambiguity <= kClear &&
+         std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
@@ -120,6 +143,31 @@ void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   }
 }
 
+// Edges that mirror each other but for a little, of which the outer one may be a shadow's border:
+// the place where a shadow begins, where the other one puts it, if that accounts for the
+// difference.
+bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
+  constexpr double kLeastPx = 1.5;       // a thinner band cannot be told from blur
+  constexpr double kLeastShare = 0.004;  // of the length; blades are ground alike to less
+  constexpr double kLeft = 0.3;          // of the difference
+  constexpr double kNearest = 1;         // px
+  constexpr double kSeen = 0.65;         // ambiguity; what texture shows is seen less
+  const bool is_upper = !LiesInwards(blades->upper, *pivot);
+  LocatedBlade& outer = is_upper ? blades->upper : blades->lower;
+  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
+  const double differs = std::abs(pivot->asymmetry);
+  if (differs < kLeastShare || differs * LengthPx(*pivot, other) < kLeastPx) return false;
+  const MirrorLine line = LineBetween(view, *pivot, *blades);
+  std::optional<LocatedEdge> edge = LocateBladeInShadow(
+      view.photo, view.scale, view.scene, GuessWhereMirrored(line, *pivot, outer, other, kNearest));
+  if (!edge) return false;
+  const std::optional<Relocated> found = WithEdge(view, *pivot, *std::move(edge), outer, other);
+  if (!found || found->blade.edge.ambiguity > kSeen) return false;
+  if (!AreAlike(found->asymmetry) || std::abs(found->asymmetry) > kLeft * differs) return false;
+  Replace(*found, &outer, pivot);
+  return true;
+}
+
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
 void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
@@ -139,6 +187,7 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!KnowsMirror(view, *pivot)) return;
+  if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot->asymmetry)) {
     RelocateClearerOne(view, pivot, blades);
   } else {

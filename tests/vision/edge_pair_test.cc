@@ -16,7 +16,7 @@ namespace {
 using testing::FarFrom;
 using testing::kUpperOnLeft;
 using testing::Measured;
-using testing::SceneWithMarkers;
+using testing::SceneWithShadow;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -60,16 +60,21 @@ TEST(LocateBlades, TakesNoShadowForBlurThatPrintAndTheOtherBladeDoNotShow) {
   constexpr double kClosePx = 1.1;  // 1.3 to 1.5 if the shadow is taken for blur
   for (const auto& [elevation_rad, direction_rad] :
        {std::pair(62 * kDegree, 315 * kDegree), std::pair(72 * kDegree, 270 * kDegree)}) {
-    SceneSpec spec = SceneWithMarkers();
-    spec.light.elevation_rad = elevation_rad;
-    spec.light.direction_rad = direction_rad;
-    spec.light.shadow = 0.75;
-    spec.light.shadow_blur_mm = 0.8;
-    spec.light.glint = 0;
-    const Measured measured(spec);
+    const Measured measured(SceneWithShadow(elevation_rad, direction_rad, 0.8));
     const LocatedEdge& lower = measured.blades.lower.edge;
     EXPECT_LT(lower.blur_px, kSofter * measured.scale.markers[0].blur_px) << elevation_rad;
     EXPECT_LT(FarFrom(measured.truth.lower, lower.points), kClosePx) << elevation_rad;
+  }
+}
+
+// Print tells that light rises too slowly there for a blade's border.
+TEST(LocateBlades, GoesFromASoftShadowsBorderToWhereTheShadowBegins) {
+  constexpr double kClosePx = 0.3;  // the shadow's border lies 1.3 to 1.9 px off
+  for (const auto& [elevation_rad, direction_rad] :
+       {std::pair(62 * kDegree, 315 * kDegree), std::pair(72 * kDegree, 270 * kDegree)}) {
+    const Measured measured(SceneWithShadow(elevation_rad, direction_rad, 0.4));
+    EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.edge.points), kClosePx)
+        << elevation_rad;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "measured_blades.h"
@@ -15,9 +16,12 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kDegree = std::numbers::pi / 180;
+
 using testing::FarFrom;
 using testing::Measured;
 using testing::SceneWithMarkers;
+using testing::SceneWithShadow;
 
 void Relocate(Measured* measured) {
   RelocateUnlikeEdges(measured->View(), &measured->pivot, &measured->blades);
@@ -49,6 +53,19 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeOutsideOfAClearerLineOnTheBlade) {
     ASSERT_GT(FarFrom(truth, misplaced.used), 0.9 * kInsidePx);
     Relocate(&measured);
     EXPECT_LT(FarFrom(truth, misplaced.used), kClosePx) << upper;
+  }
+}
+
+// As sharp as print, a shadow's border looks like the blade's.
+TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
+  constexpr double kShadowPx = 1.5, kClosePx = 0.3, kHardMm = 0.2;
+  for (const double direction_rad : {225 * kDegree, 270 * kDegree, 315 * kDegree}) {
+    Measured measured{SceneWithShadow(62 * kDegree, direction_rad, kHardMm)};
+    const EdgeTruth& truth = measured.truth.lower;
+    ASSERT_GT(FarFrom(truth, measured.blades.lower.used), kShadowPx) << direction_rad;
+    Relocate(&measured);
+    EXPECT_LT(FarFrom(truth, measured.blades.lower.used), kClosePx) << direction_rad;
+    EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx) << direction_rad;
   }
 }
 

@@ -39,6 +39,17 @@ inline SceneSpec SceneWithMarkers() {
   return spec;
 }
 
+// A lamp that throws the lower blade's shadow into the gap between the blades.
+inline SceneSpec SceneWithShadow(double elevation_rad, double direction_rad, double blur_mm) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.light.elevation_rad = elevation_rad;
+  spec.light.direction_rad = direction_rad;
+  spec.light.shadow = 0.75;
+  spec.light.shadow_blur_mm = blur_mm;
+  spec.light.glint = 0;
+  return spec;
+}
+
 // A rendered photograph up to where the edges are compared.
 struct Measured {
   explicit Measured(const SceneSpec& spec)
