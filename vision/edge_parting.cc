@@ -118,15 +118,23 @@ std::vector<double> Smoothed(const std::vector<double>& values) {
   return smooth;
 }
 
-// How many of the values from the first on are off zero: by `tolerance` somewhere, by half of it
-// all along.
+// How many of the values, counted from the first, lie beyond where they leave zero, as seen from
+// their middle: first by half of `tolerance`, then by all of it. An edge may come back at its end.
 template <typename Iterator>
 std::size_t CountOff(Iterator first, Iterator last, double tolerance) {
+  const auto middle = first + std::distance(first, last) / 2;
   std::size_t count = 0;
-  double most = 0;
-  for (; first != last && std::abs(*first) > 0.5 * tolerance; ++first, ++count)
-    most = std::max(most, std::abs(*first));
-  return most > tolerance ? count : 0;
+  for (auto value = middle; value != first;) {
+    --value;
+    const double off = std::abs(*value);
+    if (off <= 0.5 * tolerance) {
+      count = 0;
+    } else if (count == 0) {
+      count = static_cast<std::size_t>(std::distance(first, value)) + 1;
+    }
+    if (off > tolerance) return count;
+  }
+  return 0;
 }
 
 // The points of an edge from one place along the mirror line to another.

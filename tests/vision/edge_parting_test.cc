@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "measured_blades.h"
@@ -18,17 +19,26 @@ using Eigen::Vector2d;
 using testing::Measured;
 using testing::SceneWithMarkers;
 
-// Bends the edge away over a share of its length, further and further towards the tip or the
-// crotch, as a line does that meets it there.
-void LeadAstray(Measured* measured, LocatedBlade* blade, bool at_tip) {
-  constexpr double kShare = 0.22, kMostPx = -8;
+// How a line leaves the edge towards the tip or the crotch: further and further, or as one that
+// meets it again there.
+enum class Course { kAway, kAndBack };
+
+// Bends the edge away over a share of its length.
+void LeadAstray(Measured* measured,
+                LocatedBlade* blade,
+                bool at_tip,
+                Course course = Course::kAway) {
+  constexpr double kShare = 0.22, kBack = 0.1, kMostPx = -8;
   std::vector<LocatedEdgePoint>& points = blade->edge.points;
   const auto count = static_cast<double>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double place = (static_cast<double>(i) + 0.5) / count;
     const double from_end = at_tip ? 1 - place : place;
     if (from_end > kShare) continue;
-    const Vector2d shift = kMostPx * (1 - from_end / kShare) * points[i].normal;
+    const double back = std::clamp((from_end - kBack) / (kShare - kBack), 0.0, 1.0);
+    const double away =
+        course == Course::kAway ? 1 - from_end / kShare : std::sin(std::numbers::pi * back);
+    const Vector2d shift = kMostPx * away * points[i].normal;
     points[i].point_px += shift;
     points[i].trend_px += shift;
   }
@@ -48,24 +58,30 @@ double FarthestFrom(const EdgeTruth& truth, const LocatedBlade& blade) {
   return farthest;
 }
 
-TEST(CutWhereEdgesPart, CutsTheEndThatLeavesItsCourse) {
+void ExpectTheEndIsCut(bool upper, bool at_tip, Course course) {
   constexpr double kClosePx = 1.2;  // half the tolerance of the cut, and noise
   constexpr double kEndPx = 3;
+  Measured measured{SceneWithMarkers()};
+  LocatedBlade& astray = upper ? measured.blades.upper : measured.blades.lower;
+  const LocatedBlade& other = upper ? measured.blades.lower : measured.blades.upper;
+  const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+  LeadAstray(&measured, &astray, at_tip, course);
+  ASSERT_GT(FarthestFrom(truth, astray), 2 * kClosePx);
+  const std::vector<Vector2d> others = PointsOf(other);
+  CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+  EXPECT_LT(FarthestFrom(truth, astray), kClosePx) << upper << at_tip;
+  EXPECT_LT((astray.end.point_px - truth.px.back()).norm(), kEndPx) << upper << at_tip;
+  EXPECT_EQ(PointsOf(other), others) << upper << at_tip;
+}
+
+TEST(CutWhereEdgesPart, CutsTheEndThatLeavesItsCourse) {
   for (const bool upper : {true, false}) {
-    for (const bool at_tip : {true, false}) {
-      Measured measured{SceneWithMarkers()};
-      LocatedBlade& astray = upper ? measured.blades.upper : measured.blades.lower;
-      const LocatedBlade& other = upper ? measured.blades.lower : measured.blades.upper;
-      const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
-      LeadAstray(&measured, &astray, at_tip);
-      ASSERT_GT(FarthestFrom(truth, astray), 2 * kClosePx);
-      const std::vector<Vector2d> others = PointsOf(other);
-      CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
-      EXPECT_LT(FarthestFrom(truth, astray), kClosePx) << upper << at_tip;
-      EXPECT_LT((astray.end.point_px - truth.px.back()).norm(), kEndPx) << upper << at_tip;
-      EXPECT_EQ(PointsOf(other), others) << upper << at_tip;
-    }
+    for (const bool at_tip : {true, false}) ExpectTheEndIsCut(upper, at_tip, Course::kAway);
   }
+}
+
+TEST(CutWhereEdgesPart, CutsTheEndThatComesBackAtTheTip) {
+  for (const bool upper : {true, false}) ExpectTheEndIsCut(upper, true, Course::kAndBack);
 }
 
 TEST(CutWhereEdgesPart, LeavesEdgesThatMirrorEachOther) {
