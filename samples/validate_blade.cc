@@ -92,7 +92,7 @@ std::string Sentence(const std::string& name, const EdgeAgreement& agreement, do
 std::string ComparePhoto(const Json& record, const BladeCurve& curve, const fs::path& blade) {
   const std::string name = record.at("file").get<std::string>();
   const Photo photo = Photo::Load(FindPhoto(name, blade));
-  if (record.contains("sha256") && record["sha256"] != photo.metadata().sha256) {
+  if (record.contains("sha256") && record["sha256"] != photo.Sha256()) {
     throw std::invalid_argument(
         name + ": not the photograph that was measured; its contents have changed");
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "vision/robust_statistics.h"
+
 namespace bladecurve {
 namespace {
 
@@ -64,9 +66,7 @@ double RobustScatter(const Eigen::VectorXd& residuals, const Eigen::VectorXd& we
     if (weights[i] > kStillBackground) sizes.push_back(std::abs(residuals[i]));
   }
   if (sizes.empty()) return kScatterFloor;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return 1.4826 * *middle + kScatterFloor;
+  return 1.4826 * Median(std::move(sizes)) + kScatterFloor;
 }
 
 // What BackgroundModel holds, as its fit wants it.

@@ -62,6 +62,27 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
+// The scene, and beside it, where that leaves a thread idle, the file's digest.
+struct Look {
+  Scene scene;
+  std::string sha256;
+};
+
+Look LookAt(const Photo& photo,
+            const std::vector<SeenMarker>& markers,
+            const StoredHints& hints,
+            StageLog* log) {
+  Look look;
+  ParallelFor(2, [&](int part) {
+    if (part == 0) {
+      look.scene = FindScene(photo, markers, hints, log);
+    } else {
+      look.sha256 = photo.Sha256();
+    }
+  });
+  return look;
+}
+
 PlaneMap MapFor(const ScaleResult& scale,
                 const ScaleOptions& options,
                 const Pivot& pivot,
@@ -225,7 +246,8 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const ScaleResult scale = FindScale(photo, options.scale);
   log.Ran("scale", scale.map ? scale.map->source() : "waits for the blades: --length-mm");
   const StoredHints hints = InStored(photo, options.hints);
-  const Scene scene = FindScene(photo, scale.markers, hints, &log);
+  const Look look = LookAt(photo, scale.markers, hints, &log);
+  const Scene& scene = look.scene;
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
@@ -243,7 +265,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
 
   PhotoMeasurement result;
   result.file = path.string();
-  result.sha256 = photo.metadata().sha256;
+  result.sha256 = look.sha256;
   result.width = photo.displayed_width();
   result.height = photo.displayed_height();
   result.mm_per_px = frame.mm_per_px();

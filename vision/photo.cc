@@ -126,20 +126,11 @@ Photo Photo::Load(const std::filesystem::path& path) {
   try {
     Photo photo;
     photo.bytes_ = ReadWholeFile(path);
-    DecodedPhoto decoded;
-    std::string sha256;
     DecodeOptions options;
-    options.num_threads = UsableThreads();  // the digest takes a small part of the time
-    ParallelFor(2, [&](int part) {
-      if (part == 0) {
-        decoded = Decode(photo.bytes_, options);
-      } else {
-        sha256 = Sha256Hex(photo.bytes_);
-      }
-    });
+    options.num_threads = UsableThreads();
+    const DecodedPhoto decoded = Decode(photo.bytes_, options);
     photo.grey_ = decoded.pixels;
     photo.metadata_ = Describe(photo.bytes_, decoded);
-    photo.metadata_.sha256 = sha256;
     return photo;
   } catch (const std::bad_alloc&) {
     Refuse(path, "there is not enough memory for it");
@@ -147,6 +138,8 @@ Photo Photo::Load(const std::filesystem::path& path) {
     Refuse(path, error.what());
   }
 }
+
+std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
 cv::Mat Photo::DecodeColour(int max_side) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");

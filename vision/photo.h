@@ -16,7 +16,6 @@ struct PhotoMetadata {
   int orientation = 1;                    // EXIF 1 to 8
   std::optional<double> dpi;              // only if the file states a physical unit
   std::optional<double> focal_length_px;  // from EXIF: 35 mm equivalent, or focal plane resolution
-  std::string sha256;                     // of the file's bytes, lower-case hex
 };
 
 // A decoded photograph. Pixels stay as stored (turning 12 MP costs more than finding the scissors);
@@ -30,6 +29,8 @@ class Photo {
   // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
   // will do.
   [[nodiscard]] cv::Mat DecodeColour(int max_side) const;
+  // Of the file's bytes, lower-case hex; made when asked for.
+  [[nodiscard]] std::string Sha256() const;
   [[nodiscard]] const PhotoMetadata& metadata() const { return metadata_; }
 
   // Both as a viewer sees the picture; stored <-> displayed pixel coordinates.
@@ -42,7 +43,7 @@ class Photo {
  private:
   cv::Mat grey_;
   PhotoMetadata metadata_;
-  std::string bytes_;  // the file, for DecodeColour
+  std::string bytes_;  // the file
 };
 
 }  // namespace bladecurve

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "vision/parallel.h"
 #include "vision/screw_refinement.h"
 #include "vision/screw_search.h"
 #include "vision/screw_slot.h"
@@ -47,34 +47,36 @@ struct WeighedCenter {
   Eigen::Matrix2d spread;  // px^2
 };
 
-WeighedCenter WeighCenters(const cv::Mat& grey,
-                           const ToneCurve& tone,
-                           const std::optional<Eigen::Matrix2d>& view,
-                           const std::vector<FoundRim>& all,
-                           const RimFit& best) {
+// The best and those that compete with it.
+std::vector<const FoundRim*> Competitors(const std::vector<FoundRim>& all) {
   constexpr double kUnlikely = 3;  // less evidence than the best has: odds of 20 to 1
   std::vector<const FoundRim*> rims{&all.front()};
-  std::vector<std::pair<double, Eigen::Vector2d>> centers{{1, best.rim.center}};
   for (const FoundRim& found : all) {
     const double behind = all.front().Preference() - found.Preference();
     if (behind > kUnlikely) break;
     const bool differs = std::all_of(rims.begin(), rims.end(), [&](const FoundRim* rim) {
       return Rivals(rim->fit.rim, found.fit.rim);
     });
-    if (!differs) continue;
-    rims.push_back(&found);
-    centers.emplace_back(std::exp(-behind), RefineRim(grey, tone, found.fit, view).rim.center);
+    if (differs) rims.push_back(&found);
   }
+  return rims;
+}
+
+WeighedCenter WeighCenters(const std::vector<const FoundRim*>& rims,
+                           const std::vector<RimFit>& refined) {
+  std::vector<double> weights;
+  for (const FoundRim* rim : rims)
+    weights.push_back(std::exp(rim->Preference() - rims.front()->Preference()));
   double total = 0;
   WeighedCenter weighed{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
-  for (const auto& [weight, center] : centers) {
-    weighed.center += weight * center;
-    total += weight;
+  for (std::size_t i = 0; i < rims.size(); ++i) {
+    weighed.center += weights[i] * refined[i].rim.center;
+    total += weights[i];
   }
   weighed.center /= total;
-  for (const auto& [weight, center] : centers) {
-    const Eigen::Vector2d off = center - weighed.center;
-    weighed.spread += weight / total * off * off.transpose();
+  for (std::size_t i = 0; i < rims.size(); ++i) {
+    const Eigen::Vector2d off = refined[i].rim.center - weighed.center;
+    weighed.spread += weights[i] / total * off * off.transpose();
   }
   return weighed;
 }
@@ -103,8 +105,12 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
     screw.slot = FindSlot(grey, tone, best.fit.rim.center, best.fit.rim.MeanRadius());
     if (lacking > SlotEvidence(screw.slot)) return std::nullopt;
   }
-  const RimFit fit = RefineRim(grey, tone, best.fit, search.view);
-  const WeighedCenter weighed = WeighCenters(grey, tone, search.view, all, fit);
+  const std::vector<const FoundRim*> rims = Competitors(all);
+  const std::vector<RimFit> refined = ParallelMap(static_cast<int>(rims.size()), [&](int i) {
+    return RefineRim(grey, tone, rims[static_cast<std::size_t>(i)]->fit, search.view);
+  });
+  const RimFit& fit = refined.front();
+  const WeighedCenter weighed = WeighCenters(rims, refined);
   screw.center_px = weighed.center;
   screw.covariance_px2 = fit.center_covariance + weighed.spread;
   screw.semi_major_px = fit.rim.SemiAxes()[1];

@@ -34,7 +34,7 @@ std::vector<Layer> ScoreAllCircles(const RimField& field, const cv::Rect& center
   return layers;
 }
 
-// No neighbour in place or radius scores more.
+// No neighbour in place or radius scores more than it, which beats those in its row.
 bool IsPeak(const std::vector<Layer>& layers, std::size_t index, int x, int y) {
   const float value = layers[index].score.at<float>(y, x);
   const std::size_t first = index == 0 ? 0 : index - 1;
@@ -56,7 +56,8 @@ std::vector<RimCandidate> CirclePeaks(const std::vector<Layer>& layers,
     for (int y = 1; y + 1 < centers.height; ++y) {
       const float* row = layers[layer].score.ptr<float>(y);
       for (int x = 1; x + 1 < centers.width; ++x) {
-        if (row[x] < kLeastScore || !IsPeak(layers, layer, x, y)) continue;
+        if (row[x] < kLeastScore || row[x] < row[x - 1] || row[x] < row[x + 1]) continue;
+        if (!IsPeak(layers, layer, x, y)) continue;
         const Eigen::Vector2d center(centers.x + x, centers.y + y);
         if ((center - search.guess).norm() > search.range + 1) continue;
         peaks.push_back({RimEllipse::Circle(center, layers[layer].radius), row[x]});

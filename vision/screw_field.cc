@@ -37,8 +37,8 @@ const Eigen::Vector2d& SampleDirection(int sample) {
   return directions[static_cast<std::size_t>(sample)];
 }
 
-std::array<cv::Point, RimField::kSamples> CircleOffsets(double radius) {
-  std::array<cv::Point, RimField::kSamples> offsets;
+RimField::CircleOffsets OffsetsOf(double radius) {
+  RimField::CircleOffsets offsets;
   for (int sample = 0; sample < RimField::kSamples; ++sample) {
     const Eigen::Vector2d offset = radius * SampleDirection(sample);
     offsets[static_cast<std::size_t>(sample)] = {static_cast<int>(std::lround(offset.x())),
@@ -47,7 +47,15 @@ std::array<cv::Point, RimField::kSamples> CircleOffsets(double radius) {
   return offsets;
 }
 
-float SectorScore(float q_squared) { return q_squared / (q_squared + kHalfScore * kHalfScore); }
+constexpr float kHalfScoreSquared = kHalfScore * kHalfScore;
+
+float SectorScore(float q_squared) { return q_squared / (q_squared + kHalfScoreSquared); }
+
+// The sum of two, with one division.
+float SectorScores(float p_squared, float q_squared) {
+  const float p = p_squared + kHalfScoreSquared, q = q_squared + kHalfScoreSquared;
+  return (p_squared * q + q_squared * p) / (p * q);
+}
 
 float MedianOf(std::vector<float>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -60,6 +68,23 @@ float WeightFrom(std::vector<float>& absolute_sums, float least) {
   const float usual = kNormalMad * MedianOf(absolute_sums);
   const float floor = 2 * least;
   return 1.F / std::max(usual * usual, floor * floor);
+}
+
+// Between the four pixels about a point; beyond the grid its border repeats.
+template <typename Value>
+Value Interpolated(const std::vector<Value>& grid,
+                   const cv::Size& size,
+                   const Eigen::Vector2d& at) {
+  const float x =
+      std::clamp(static_cast<float>(at.x()), 0.F, static_cast<float>(size.width) - 1.01F);
+  const float y =
+      std::clamp(static_cast<float>(at.y()), 0.F, static_cast<float>(size.height) - 1.01F);
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
+  const Value* upper = grid.data() + static_cast<std::ptrdiff_t>(row) * size.width + column;
+  const Value* lower = upper + size.width;
+  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
+         down * ((1 - right) * lower[0] + right * lower[1]);
 }
 
 cv::Mat Derivative(const cv::Mat& image, int dx, int dy) {
@@ -111,7 +136,7 @@ RimField::RimField(const cv::Mat& window,
                    const Eigen::Vector2d& center,
                    double half_range,
                    double typical_radius)
-    : width_(window.cols), height_(window.rows) {
+    : size_(window.size()) {
   cv::Mat smooth;
   cv::GaussianBlur(window, smooth, cv::Size(7, 7), kBlurPx, kBlurPx, cv::BORDER_REPLICATE);
   const cv::Mat gx = Derivative(smooth, 1, 0), gy = Derivative(smooth, 0, 1);
@@ -139,7 +164,7 @@ RimField::RimField(const cv::Mat& window,
 
 void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius) {
   std::array<std::vector<float>, kSectors / 2> edge, line;
-  const std::array<cv::Point, kSamples> offsets = CircleOffsets(radius);
+  const CircleOffsets offsets = OffsetsOf(radius);
   for (int row = -kUsualGrid; row <= kUsualGrid; ++row) {
     for (int column = -kUsualGrid; column <= kUsualGrid; ++column) {
       const double step = half_range / kUsualGrid;
@@ -162,20 +187,6 @@ void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, do
   }
 }
 
-RimField::Derivatives RimField::DerivativesAt(const Eigen::Vector2d& point) const {
-  const float x =
-      std::clamp(static_cast<float>(point.x()), 0.F, static_cast<float>(width_) - 1.01F);
-  const float y =
-      std::clamp(static_cast<float>(point.y()), 0.F, static_cast<float>(height_) - 1.01F);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
-  const Derivatives* upper =
-      derivatives_.data() + static_cast<std::ptrdiff_t>(row) * width_ + column;
-  const Derivatives* lower = upper + width_;
-  return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
-         down * ((1 - right) * lower[0] + right * lower[1]);
-}
-
 RimField::SectorResponses RimField::Responses(const RimEllipse& rim) const {
   return ResponsesAside(rim, 0);
 }
@@ -190,7 +201,7 @@ RimField::SectorResponses RimField::ResponsesAside(const RimEllipse& rim, double
       const Eigen::Vector2f n = (inverse_shape * u).cast<float>();
       const float scale = 1 / n.squaredNorm();
       const Eigen::Vector2d tangent(-u.y(), u.x());
-      const Derivatives d = DerivativesAt(rim.PointAt(u + share * tangent));
+      const Derivatives d = Interpolated(derivatives_, size_, rim.PointAt(u + share * tangent));
       edge += std::sqrt(scale) * (n.x() * d[0] + n.y() * d[1]);
       line += scale * (n.x() * n.x() * d[2] + 2 * n.x() * n.y() * d[3] + n.y() * n.y() * d[4]);
     }
@@ -219,26 +230,36 @@ double RimField::ScoreWithoutTangents(const RimEllipse& rim) const {
   return sum / kSectors;
 }
 
+RimField::SectorRows RimField::RowsOf(std::size_t sector,
+                                      const CircleOffsets& offsets,
+                                      const cv::Point& start) const {
+  const std::size_t first = 2 * sector, d = first % kDirections;
+  const cv::Point p = start + offsets[first], q = start + offsets[first + 1];
+  return {edge_[d].ptr<float>(p.y) + p.x,
+          edge_[d + 1].ptr<float>(q.y) + q.x,
+          line_[d].ptr<float>(p.y) + p.x,
+          line_[d + 1].ptr<float>(q.y) + q.x};
+}
+
 cv::Mat RimField::ScoreCircles(const cv::Rect& centers, double radius) const {
   cv::Mat score = cv::Mat::zeros(centers.size(), CV_32F);
-  const std::array<cv::Point, kSamples> offsets = CircleOffsets(radius);
+  const CircleOffsets offsets = OffsetsOf(radius);
   for (int row = 0; row < centers.height; ++row) {
     float* out = score.ptr<float>(row);
-    for (std::size_t sector = 0; sector < kSectors; ++sector) {
-      const std::size_t first = 2 * sector, d = first % kDirections;
-      const cv::Point start(centers.x, centers.y + row);
-      const cv::Point p = start + offsets[first], q = start + offsets[first + 1];
-      const float *edge_a = edge_[d].ptr<float>(p.y) + p.x,
-                  *line_a = line_[d].ptr<float>(p.y) + p.x;
-      const float* edge_b = edge_[d + 1].ptr<float>(q.y) + q.x;
-      const float* line_b = line_[d + 1].ptr<float>(q.y) + q.x;
-      const float edge_weight = edge_weight_[sector % (kSectors / 2)];
-      const float line_weight = line_weight_[sector % (kSectors / 2)];
+    const cv::Point start(centers.x, centers.y + row);
+    for (std::size_t sector = 0; sector < kSectors / 2; ++sector) {
+      const SectorRows a = RowsOf(sector, offsets, start);
+      const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite
+      const float edge_weight = edge_weight_[sector], line_weight = line_weight_[sector];
       for (int i = 0; i < centers.width; ++i) {
-        const float edge = edge_a[i] + edge_b[i], line = line_a[i] + line_b[i];
-        out[i] += SectorScore(edge * edge * edge_weight + line * line * line_weight) / kSectors;
+        const float edge = a.edge[i] + a.next_edge[i], line = a.line[i] + a.next_line[i];
+        const float far_edge = b.edge[i] + b.next_edge[i], far_line = b.line[i] + b.next_line[i];
+        out[i] +=
+            SectorScores(edge * edge * edge_weight + line * line * line_weight,
+                         far_edge * far_edge * edge_weight + far_line * far_line * line_weight);
       }
     }
+    for (int i = 0; i < centers.width; ++i) out[i] /= kSectors;
   }
   return score;
 }

@@ -32,6 +32,7 @@ class RimField {
   static constexpr int kSectors = 16;
   static constexpr int kSamples = 2 * kSectors;
   using SectorResponses = std::array<float, kSectors>;
+  using CircleOffsets = std::array<cv::Point, kSamples>;  // of the samples from the centre
 
   // What is usual is taken from circles of typical_radius centred within half_range of `center`;
   // all in window pixels.
@@ -55,12 +56,19 @@ class RimField {
   static constexpr int kDirections = kSamples / 2;  // opposite samples share theirs
   using Derivatives = Eigen::Array<float, 8, 1>;    // g_x, g_y, h_xx, h_xy, h_yy, three times 0
 
+  // Derivatives along the normals at the two samples of a sector, for centres along a row.
+  struct SectorRows {
+    const float *edge, *next_edge, *line, *next_line;
+  };
+
   void MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius);
+  [[nodiscard]] SectorRows RowsOf(std::size_t sector,
+                                  const CircleOffsets& offsets,
+                                  const cv::Point& start) const;
   // Responses with every place moved along its tangent by that share of the mean radius.
   [[nodiscard]] SectorResponses ResponsesAside(const RimEllipse& rim, double share) const;
-  [[nodiscard]] Derivatives DerivativesAt(const Eigen::Vector2d& point) const;
 
-  int width_ = 0, height_ = 0;
+  cv::Size size_;
   std::vector<Derivatives> derivatives_;
   std::array<cv::Mat, kDirections> edge_, line_;  // derivatives along the directions of the samples
   std::array<float, kSectors / 2> edge_weight_{},

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "vision/parallel.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -186,15 +187,17 @@ void MatchInGrain(const RimProfiles& profiles, RimMatches& matches) {
   const RimRows noise = NoiseAlongRim(left);
   const Index count = values.rows(), stride = (count + kPlaces - 1) / kPlaces;
   const double most_shift_px = kMostRelativeShift * profiles.t[profiles.t.size() - 1];
-  GrainFilter filter;
-  for (Index i = 0; i < count; ++i) {
-    if (i % stride == 0) filter = MakeFilter(profiles, shape, noise.row(i).transpose());
-    Rematch(filter,
-            values.row(i),
-            left.strays[i] > 0,
-            most_shift_px,
-            matches.each[static_cast<std::size_t>(i)]);
-  }
+  ParallelFor(static_cast<int>((count + stride - 1) / stride), [&](int place) {
+    const Index first = place * stride;
+    const GrainFilter filter = MakeFilter(profiles, shape, noise.row(first).transpose());
+    for (Index i = first; i < std::min(first + stride, count); ++i) {
+      Rematch(filter,
+              values.row(i),
+              left.strays[i] > 0,
+              most_shift_px,
+              matches.each[static_cast<std::size_t>(i)]);
+    }
+  });
   Normalize(shape, left.plain, matches.each);
 }
 

@@ -121,22 +121,68 @@ std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
   return matches;
 }
 
+// kColumns of a row and its weighted neighbours on both sides; sums that fit into registers.
+template <int kColumns>
+void SmoothColumns(const double* middle,
+                   Eigen::Index stride,
+                   const std::vector<double>& weights,
+                   double* out) {
+  Eigen::Array<double, kColumns, 1> sum = Eigen::Map<const decltype(sum)>(middle);
+  const double *after = middle, *before = middle;
+  for (const double weight : weights) {
+    sum += weight * Eigen::Map<const decltype(sum)>(after += stride);
+    sum += weight * Eigen::Map<const decltype(sum)>(before -= stride);
+  }
+  Eigen::Map<decltype(sum)>{out} = sum;
+}
+
+// One row and its weighted neighbours on both sides.
+void SmoothRow(const RimRows& rows,
+               Eigen::Index row,
+               const std::vector<double>& weights,
+               double* out) {
+  constexpr Eigen::Index kAtOnce = 8;
+  const double* const middle = rows.row(row).data();
+  Eigen::Index column = 0;
+  for (; column + kAtOnce <= rows.cols(); column += kAtOnce)
+    SmoothColumns<kAtOnce>(middle + column, rows.cols(), weights, out + column);
+  for (; column < rows.cols(); ++column)
+    SmoothColumns<1>(middle + column, rows.cols(), weights, out + column);
+}
+
+// Values at start + t direction.
+void SampleAlong(const cv::Mat& picture,
+                 const Eigen::Vector2d& start,
+                 const Eigen::Vector2d& direction,
+                 const Eigen::VectorXd& t,
+                 double* values) {
+  const Eigen::Index last = t.size() - 1;
+  const auto value = [](float pixel) { return static_cast<double>(pixel); };
+  const bool within = LiesWithin(picture, start + t[0] * direction) &&
+                      LiesWithin(picture, start + t[last] * direction);
+  for (Eigen::Index k = 0; k <= last; ++k) {
+    const Eigen::Vector2d at = start + t[k] * direction;
+    values[k] = within ? BilinearWithin<float>(picture, at, value) : Bilinear<float>(picture, at);
+  }
+}
+
 }  // namespace
 
 SmoothedRows SmoothAlongRim(const RimRows& rows, double sigma_rows) {
   const Eigen::Index count = rows.rows();
   const auto reach = std::min(static_cast<Eigen::Index>(std::ceil(2.5 * sigma_rows)), count / 2);
-  SmoothedRows smooth{rows};
+  SmoothedRows smooth;
+  std::vector<double> weights;
   for (Eigen::Index k = 1; k <= reach; ++k) {
-    const double weight = std::exp(-0.5 * static_cast<double>(k * k) / (sigma_rows * sigma_rows));
-    // Both neighbours k away; the rim is closed.
-    smooth.values.topRows(count - k) += weight * rows.bottomRows(count - k);
-    smooth.values.bottomRows(k) += weight * rows.topRows(k);
-    smooth.values.bottomRows(count - k) += weight * rows.topRows(count - k);
-    smooth.values.topRows(k) += weight * rows.bottomRows(k);
-    smooth.weights += 2 * weight;
-    smooth.squared_weights += 2 * weight * weight;
+    weights.push_back(std::exp(-0.5 * static_cast<double>(k * k) / (sigma_rows * sigma_rows)));
+    smooth.weights += 2 * weights.back();
+    smooth.squared_weights += 2 * weights.back() * weights.back();
   }
+  RimRows closed(count + 2 * reach, rows.cols());  // the rim goes on with its other end
+  closed << rows.bottomRows(reach), rows, rows.topRows(reach);
+  smooth.values.resize(count, rows.cols());
+  for (Eigen::Index row = 0; row < count; ++row)
+    SmoothRow(closed, row + reach, weights, smooth.values.row(row).data());
   return smooth;
 }
 
@@ -158,10 +204,7 @@ RimProfiles SampleProfiles(const cv::Mat& picture,
     const double angle = 2 * std::numbers::pi * i / count;
     const Eigen::Vector2d u(std::cos(angle), std::sin(angle));
     const Eigen::Vector2d n = (inverse_shape * u).normalized(), p = rim.PointAt(u);
-    for (int k = 0; k < taps; ++k) {
-      const Eigen::Vector2d q = p + profiles.t[k] * n;
-      profiles.values(i, k) = Bilinear<float>(picture, q);
-    }
+    SampleAlong(picture, p, n, profiles.t, profiles.values.row(i).data());
     profiles.jacobian.row(i) << n.x(), n.y(), n.x() * u.x(), n.x() * u.y() + n.y() * u.x(),
         n.y() * u.y();
   }

@@ -149,32 +149,34 @@ bool Gains(const RimFit& in_grain, const RimFit& plain) {
          apart.dot(plain.center_covariance.inverse() * apart) < kSame;
 }
 
-// The fit in the grain of the metal instead if that gains.
-void FitInGrain(const cv::Mat& light, RefinedRim& refined) {
+// The fit in the grain of the metal if that gains.
+std::optional<RimFit> FitInGrain(const cv::Mat& light, const RefinedRim& refined) {
   RimFitOptions options = refined.options;
   options.grain = true;
   options.iterations = 4;  // it starts where the other ended
   const std::optional<RimFit> in_grain = FitRim(light, refined.fit.rim, options);
-  if (in_grain && Gains(*in_grain, refined.fit)) refined.fit = *in_grain;
+  if (!in_grain || !Gains(*in_grain, refined.fit)) return std::nullopt;
+  return in_grain;
 }
 
 // Where a third of the rim does not look like the rest, the fit may follow something else there,
-// such as the inner border of a lit chamfer. The fit without that third instead if it says so.
-bool LeaveOutOddThird(const cv::Mat& light, const RimEllipse& start, RefinedRim& refined) {
+// such as the inner border of a lit chamfer. The fit without that third if it says so.
+std::optional<RimFit> LeaveOutOddThird(const cv::Mat& light,
+                                       const RimEllipse& start,
+                                       const RefinedRim& refined) {
   constexpr double kOdd = 0.65;  // support of the third; grain and slots leave more
   constexpr double kApart = 2;   // sigmas of the fit without it
   const RimFit& fit = refined.fit;
-  if (fit.rim.MeanRadius() < kLeastShadedPx || fit.third_support > kOdd) return false;
+  if (fit.rim.MeanRadius() < kLeastShadedPx || fit.third_support > kOdd) return std::nullopt;
   RimFitOptions options = refined.options;
   options.first_half_px = options.last_half_px;
   options.iterations = 4;  // it starts where the other ended
   options.left_out_rad = fit.odd_third_rad;
   const std::optional<RimFit> without = FitRim(light, fit.rim, options);
-  if (!without || !SameRim(without->rim, start)) return false;
+  if (!without || !SameRim(without->rim, start)) return std::nullopt;
   const double apart_px2 = (without->rim.center - fit.rim.center).squaredNorm();
-  if (apart_px2 < kApart * kApart * Scatter(*without)) return false;
-  refined.fit = *without;
-  return true;
+  if (apart_px2 < kApart * kApart * Scatter(*without)) return std::nullopt;
+  return without;
 }
 
 // The scatter along the rim cannot tell that all of it is moved: where part of it looks otherwise
@@ -215,10 +217,13 @@ RimFit RefineRim(const cv::Mat& grey,
   const RimEllipse start = judged.rim.Into(light.origin, 1);
   std::optional<RefinedRim> refined = FitLight(light.grey, start, view);
   if (!refined) return MoreDoubtful(judged, UnevenVariance(judged, judged.rim.MeanRadius()));
-  const double unseen_px2 = UnseenVariance(*refined, judged);
-  if (!LeaveOutOddThird(light.grey, start, *refined)) FitInGrain(light.grey, *refined);
-  refined->fit.rim = refined->fit.rim.OutOf(light.origin, 1);
-  return MoreDoubtful(refined->fit, unseen_px2);
+  const auto instead = ParallelMap(2, [&](int i) {
+    return i == 0 ? LeaveOutOddThird(light.grey, start, *refined)
+                  : FitInGrain(light.grey, *refined);
+  });
+  RimFit fit = instead[0].value_or(instead[1].value_or(refined->fit));
+  fit.rim = fit.rim.OutOf(light.origin, 1);
+  return MoreDoubtful(fit, UnseenVariance(*refined, judged));
 }
 
 }  // namespace bladecurve

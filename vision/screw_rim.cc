@@ -122,7 +122,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
       return std::nullopt;
     }
     fit.center_covariance = update.center_covariance;
-    RateSupport(matches->each, update, start_radius, fit);
+    if (!settling) RateSupport(matches->each, update, start_radius, fit);
     if (!settling && fit.support < options.hopeless_support) return std::nullopt;
     if (!settling && half_px <= options.last_half_px && update.change.norm() < options.converged_px)
       break;
