@@ -98,12 +98,12 @@ std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
 int FurthestAhead(
     const Outline& outline, int from, int to, const Vector2d& origin, const Vector2d& direction) {
   int best = -1;
-  double best_distance = 0;
+  double best_squared = 0;
   const int steps = outline.Wrap(to - from);
   for (int k = 0; k <= steps; ++k) {
     const Vector2d offset = outline.At(from + k) - origin;
-    if (offset.dot(direction) > 0 && offset.norm() > best_distance) {
-      best_distance = offset.norm();
+    if (offset.dot(direction) > 0 && offset.squaredNorm() > best_squared) {
+      best_squared = offset.squaredNorm();
       best = outline.Wrap(from + k);
     }
   }

@@ -37,7 +37,10 @@ class Outline {
   explicit Outline(const std::vector<cv::Point>& contour) : points_(contour) {}
 
   [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
-  [[nodiscard]] int Wrap(int i) const { return ((i % size()) + size()) % size(); }
+  [[nodiscard]] int Wrap(int i) const {
+    const bool within = i >= 0 && i < size();  // mostly; a division takes longer than the rest
+    return within ? i : ((i % size()) + size()) % size();
+  }
   [[nodiscard]] Eigen::Vector2d At(int i) const {
     const cv::Point& p = points_[static_cast<std::size_t>(Wrap(i))];
     return {p.x, p.y};

@@ -25,7 +25,7 @@ TEST(BlockMeans, EqualTheMeansOfTheBlocks) {
   constexpr double kRounding = 255 * 1e-6;  // of single precision
   const cv::Mat whole = Noise(300, 271, 1);
   const cv::Mat part = whole(cv::Rect(3, 5, 260, 290));  // rows that do not follow each other
-  for (const int factor : {1, 2, 3, 6, 17}) {
+  for (const int factor : {1, 2, 3, 4, 5, 6, 7, 17}) {
     const cv::Mat means = BlockMeans(part, factor);
     ASSERT_EQ(means.size(), cv::Size(260 / factor, 290 / factor)) << factor;
     for (int row = 0; row < means.rows; ++row) {
@@ -52,6 +52,7 @@ TEST(BlockMeans, RefuseFactorsOutOfRange) {
 
 TEST(BlockMeans, PicturesSmallerThanABlockGiveNone) {
   EXPECT_TRUE(BlockMeans(Noise(5, 9, 3), 6).empty());
+  EXPECT_TRUE(BlockMeans(Noise(9, 5, 3), 6).empty());
 }
 
 }  // namespace
