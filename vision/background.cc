@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "vision/parallel.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -156,7 +157,7 @@ class RowOfBackground {
 template <int kChannels>
 cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, const Window& window) {
   cv::Mat distance(image.size(), CV_32FC1);
-  for (int row = 0; row < image.rows; ++row) {
+  const auto fill_row = [&](int row) {
     const float* pixels = image.ptr<float>(row);
     float* out = distance.ptr<float>(row);
     std::fill(out, out + image.cols, 0.0f);
@@ -169,8 +170,12 @@ cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, cons
         out[col] += off * off;
       }
     }
-  }
-  cv::sqrt(distance, distance);
+  };
+  ParallelForBands(image.rows, [&](int first, int last) {
+    for (int row = first; row < last; ++row) fill_row(row);
+    cv::Mat band = distance.rowRange(first, last);
+    cv::sqrt(band, band);
+  });
   return distance;
 }
 

@@ -73,11 +73,9 @@ cv::Mat BlockMeans(const cv::Mat& grey, int factor) {
     grey.convertTo(means, CV_32F);
     return means;
   }
-  constexpr int kBand = 128;  // rows; fewer are not worth a thread
   means.create(grey.rows / factor, grey.cols / factor, CV_32FC1);
-  ParallelFor((means.rows + kBand - 1) / kBand, [&](int band) {
-    FillRows(grey, factor, band * kBand, std::min((band + 1) * kBand, means.rows), &means);
-  });
+  ParallelForBands(means.rows,
+                   [&](int first, int last) { FillRows(grey, factor, first, last, &means); });
   return means;
 }
 

@@ -77,6 +77,12 @@ void ParallelFor(int count, const std::function<void(int)>& work) {
   if (count > 0) CallEach(count, usable_threads, work);
 }
 
+void ParallelForBands(int rows, const std::function<void(int, int)>& work) {
+  constexpr int kBand = 128;
+  ParallelFor((rows + kBand - 1) / kBand,
+              [&](int band) { work(band * kBand, std::min((band + 1) * kBand, rows)); });
+}
+
 int UsableThreads() { return usable_threads; }
 
 }  // namespace bladecurve

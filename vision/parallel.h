@@ -19,6 +19,10 @@ void ParallelFor(int count, int num_threads, const std::function<void(int)>& wor
 // all of the machine's. So photographs measured beside each other leave each other their threads.
 void ParallelFor(int count, const std::function<void(int)>& work);
 
+// work(first, last) for bands of rows that together are [0, rows), by that ParallelFor; as high as
+// is worth a thread.
+void ParallelForBands(int rows, const std::function<void(int, int)>& work);
+
 // make(0) .. make(count - 1), made by that ParallelFor.
 template <typename Make>
 [[nodiscard]] auto ParallelMap(int count, const Make& make) {

@@ -38,13 +38,21 @@ std::vector<double> ThresholdsUpTo(const cv::Mat& distance) {
   return thresholds;
 }
 
+cv::Mat Smooth(const cv::Mat& distance) {
+  cv::Mat smooth(distance.size(), distance.type());
+  ParallelForBands(distance.rows, [&](int first, int last) {
+    cv::Mat band = smooth.rowRange(first, last);  // its neighbours count as well
+    cv::GaussianBlur(distance.rowRange(first, last), band, {}, 0.8);
+  });
+  return smooth;
+}
+
 // Threshold after threshold until they settle. How many are looked at together changes nothing.
 Rung ThresholdAll(const cv::Mat& distance,
                   const cv::Mat& hidden,
                   const Candidate& like,
                   const StoredHints& hints) {
-  cv::Mat smooth;
-  cv::GaussianBlur(distance, smooth, {}, 0.8);
+  const cv::Mat smooth = Smooth(distance);
   const std::vector<double> thresholds = ThresholdsUpTo(smooth);
   const int all = static_cast<int>(thresholds.size());
   Rung rung;
