@@ -7,6 +7,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/nearest_pixel.h"
+
 namespace bladecurve {
 namespace {
 
@@ -126,7 +128,7 @@ std::pair<double, Vector2d> SpanAcross(const cv::Mat& filled,
     double d = 0;
     for (; d < filled.cols + filled.rows; d += 0.5) {
       const Vector2d p = center + sign * d * across;
-      const cv::Point q(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+      const cv::Point q = NearestPixel(p);
       if (!cv::Rect({0, 0}, filled.size()).contains(q) || filled.at<uchar>(q) == 0) break;
     }
     return d;

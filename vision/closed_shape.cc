@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/nearest_pixel.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -30,7 +31,7 @@ Section SectionAcross(const cv::Mat& filled, const Vector2d& middle, const Vecto
   bool inside = false;
   for (int k = 0; k <= steps; ++k) {
     const Vector2d p = middle + (2.0 * k / std::max(1, steps) - 1) * half_across;
-    const cv::Point at(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    const cv::Point at = NearestPixel(p);
     const bool now = cv::Rect({0, 0}, filled.size()).contains(at) && filled.at<uchar>(at) != 0;
     section.width += now ? 1 : 0;
     section.runs += now && !inside ? 1 : 0;

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/cross.h"
+#include "vision/nearest_pixel.h"
 
 namespace bladecurve {
 namespace {
@@ -55,7 +56,7 @@ bool RunsOutOfSight(const std::vector<Vector2d>& points,
                     const cv::Size& size) {
   const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
   return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
-    const cv::Point at(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    const cv::Point at = NearestPixel(p);
     if (!inner.contains(at)) return true;
     return !hidden.empty() && cv::countNonZero(hidden(cv::Rect(at.x - 2, at.y - 2, 5, 5))) > 0;
   });
@@ -116,8 +117,7 @@ double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& 
   const Vector2d center = from + t * (to - from);
   const double reach = 0.35 * (to - from).norm();
   const auto inside = [&](const Vector2d& p) {
-    const int x = static_cast<int>(std::lround(p.x()));
-    const int y = static_cast<int>(std::lround(p.y()));
+    const int x = NearestPixel(p.x()), y = NearestPixel(p.y());
     return x >= 0 && y >= 0 && x < filled.cols && y < filled.rows && filled.at<uchar>(y, x) != 0;
   };
   // The longest run that starts close to the line: the blade's inner side is the line, or nearly.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "vision/closed_shape.h"
+#include "vision/nearest_pixel.h"
 #include "vision/robust_statistics.h"
 #include "vision/silhouette.h"
 
@@ -21,8 +22,8 @@ using Eigen::Vector2d;
 double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path, double reach) {
   std::vector<double> steps;
   const auto value = [&](const Vector2d& p, int c) {
-    const int x = std::clamp(static_cast<int>(std::lround(p.x())), 0, image.cols - 1);
-    const int y = std::clamp(static_cast<int>(std::lround(p.y())), 0, image.rows - 1);
+    const int x = std::clamp(NearestPixel(p.x()), 0, image.cols - 1);
+    const int y = std::clamp(NearestPixel(p.y()), 0, image.rows - 1);
     return static_cast<double>(image.ptr<float>(y)[x * image.channels() + c]);
   };
   for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
