@@ -15,6 +15,8 @@ namespace {
 
 constexpr int kTerms = BackgroundModel::kTerms;
 using Terms = Eigen::Matrix<double, kTerms, 1>;
+using TermsOfAll = Eigen::Matrix<double, Eigen::Dynamic, kTerms>;
+using NormalMatrix = Eigen::Matrix<double, kTerms, kTerms>;  // only its lower half is used
 
 constexpr int kSamples = 6000;     // enough for 10 terms; more costs time and changes nothing
 constexpr int kIterations = 15;    // reweighting has settled before, but for huge foregrounds
@@ -29,7 +31,7 @@ Terms TermsAt(double x, double y) {
 }
 
 struct Samples {
-  Eigen::Matrix<double, Eigen::Dynamic, kTerms> terms;
+  TermsOfAll terms;
   Eigen::MatrixXd values;  // one column a channel
 };
 
@@ -89,11 +91,12 @@ Eigen::VectorXd Weights(const Eigen::MatrixXd& residuals, const Eigen::VectorXd&
 
 // One round; leaves the weights for the next.
 Surface Reweight(const Samples& samples, Eigen::VectorXd* weights) {
-  const Eigen::Matrix<double, kTerms, Eigen::Dynamic> weighted =
-      samples.terms.transpose() * weights->asDiagonal();
-  const Eigen::Matrix<double, kTerms, kTerms> normal =
-      weighted * samples.terms + 1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
-  Surface surface{normal.ldlt().solve(weighted * samples.values), {}};
+  const TermsOfAll weighted = weights->asDiagonal() * samples.terms;
+  NormalMatrix normal = 1e-9 * NormalMatrix::Identity();
+  for (int i = 0; i < kTerms; ++i) {
+    for (int j = 0; j <= i; ++j) normal(i, j) += weighted.col(i).dot(samples.terms.col(j));
+  }
+  Surface surface{normal.ldlt().solve(weighted.transpose() * samples.values), {}};
   const Eigen::MatrixXd residuals = Residuals(surface, samples);
   surface.scatter.resize(residuals.cols());
   for (Eigen::Index c = 0; c < residuals.cols(); ++c)
