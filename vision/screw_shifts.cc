@@ -110,7 +110,7 @@ NormalEquations WeightedEquations(const RimJacobian& jacobian,
                                   const ArrayXd& weight,
                                   const Eigen::VectorXd& shift_px) {
   const RimJacobian weighted = jacobian.array().colwise() * weight;
-  return {kDamping.asDiagonal().toDenseMatrix() + weighted.transpose() * jacobian,
+  return {kDamping.asDiagonal().toDenseMatrix() + weighted.transpose().lazyProduct(jacobian),
           weighted.transpose() * shift_px};
 }
 
