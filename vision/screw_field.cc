@@ -70,6 +70,15 @@ float WeightFrom(std::vector<float>& absolute_sums, float least) {
   return 1.F / std::max(usual * usual, floor * floor);
 }
 
+// The largest circle whose rim is sought, over the typical one, and what rounding may add.
+constexpr double kLargestCircle = 1.5, kRoundingPx = 4;
+
+cv::Rect WithinReach(const Eigen::Vector2d& center, double reach) {
+  const int side = 2 * static_cast<int>(reach + kRoundingPx) + 1;
+  return {
+      static_cast<int>(center.x()) - side / 2, static_cast<int>(center.y()) - side / 2, side, side};
+}
+
 // Between the four pixels about a point; beyond the grid its border repeats.
 template <typename Value>
 Value Interpolated(const std::vector<Value>& grid,
@@ -147,19 +156,29 @@ RimField::RimField(const cv::Mat& window,
   for (std::size_t i = 0; i < derivatives_.size(); ++i) {
     derivatives_[i] << x[i], y[i], xx[i], xy[i], yy[i], 0, 0, 0;
   }
+  inner_ =
+      WithinReach(center, half_range + kLargestCircle * typical_radius) & cv::Rect({0, 0}, size_);
+  Planes planes{gx, gy, hxx, hxy, hyy};
+  for (cv::Mat& plane : planes) plane = plane(inner_).clone();
+  ResolveDirections(planes);
+  MeasureUsual(center, half_range, typical_radius);
+}
+
+void RimField::ResolveDirections(const Planes& planes) {
+  const float *x = planes[0].ptr<float>(), *y = planes[1].ptr<float>();
+  const float *xx = planes[2].ptr<float>(), *xy = planes[3].ptr<float>(),
+              *yy = planes[4].ptr<float>();
+  const std::size_t count = planes[0].total();
   for (std::size_t direction = 0; direction < kDirections; ++direction) {
     const Eigen::Vector2f n = SampleDirection(static_cast<int>(direction)).cast<float>();
     const float nxx = n.x() * n.x(), nxy = 2 * n.x() * n.y(), nyy = n.y() * n.y();
-    edge_[direction].create(gx.size(), CV_32F);
-    line_[direction].create(gx.size(), CV_32F);
+    edge_[direction].create(inner_.size(), CV_32F);
+    line_[direction].create(inner_.size(), CV_32F);
     auto* edge = edge_[direction].ptr<float>();
-    for (std::size_t i = 0; i < derivatives_.size(); ++i) edge[i] = n.x() * x[i] + n.y() * y[i];
+    for (std::size_t i = 0; i < count; ++i) edge[i] = n.x() * x[i] + n.y() * y[i];
     auto* line = line_[direction].ptr<float>();
-    for (std::size_t i = 0; i < derivatives_.size(); ++i) {
-      line[i] = nxx * xx[i] + nxy * xy[i] + nyy * yy[i];
-    }
+    for (std::size_t i = 0; i < count; ++i) line[i] = nxx * xx[i] + nxy * xy[i] + nyy * yy[i];
   }
-  MeasureUsual(center, half_range, typical_radius);
 }
 
 void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius) {
@@ -168,8 +187,9 @@ void RimField::MeasureUsual(const Eigen::Vector2d& center, double half_range, do
   for (int row = -kUsualGrid; row <= kUsualGrid; ++row) {
     for (int column = -kUsualGrid; column <= kUsualGrid; ++column) {
       const double step = half_range / kUsualGrid;
-      const cv::Point place(static_cast<int>(center.x() + step * column + 0.5),
-                            static_cast<int>(center.y() + step * row + 0.5));
+      const cv::Point place = cv::Point(static_cast<int>(center.x() + step * column + 0.5),
+                                        static_cast<int>(center.y() + step * row + 0.5)) -
+                              inner_.tl();
       for (std::size_t sector = 0; sector < kSectors; ++sector) {
         const std::size_t first = 2 * sector, second = first + 1;
         const cv::Point p = place + offsets[first], q = place + offsets[second];
@@ -246,7 +266,7 @@ cv::Mat RimField::ScoreCircles(const cv::Rect& centers, double radius) const {
   const CircleOffsets offsets = OffsetsOf(radius);
   for (int row = 0; row < centers.height; ++row) {
     float* out = score.ptr<float>(row);
-    const cv::Point start(centers.x, centers.y + row);
+    const cv::Point start = cv::Point(centers.x, centers.y + row) - inner_.tl();
     for (std::size_t sector = 0; sector < kSectors / 2; ++sector) {
       const SectorRows a = RowsOf(sector, offsets, start);
       const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite

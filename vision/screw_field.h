@@ -61,6 +61,9 @@ class RimField {
     const float *edge, *next_edge, *line, *next_line;
   };
 
+  using Planes = std::array<cv::Mat, 5>;  // g_x, g_y, h_xx, h_xy, h_yy within inner_
+
+  void ResolveDirections(const Planes& planes);
   void MeasureUsual(const Eigen::Vector2d& center, double half_range, double radius);
   [[nodiscard]] SectorRows RowsOf(std::size_t sector,
                                   const CircleOffsets& offsets,
@@ -70,7 +73,8 @@ class RimField {
 
   cv::Size size_;
   std::vector<Derivatives> derivatives_;
-  std::array<cv::Mat, kDirections> edge_, line_;  // derivatives along the directions of the samples
+  cv::Rect inner_;                                // what the circles' rims may reach
+  std::array<cv::Mat, kDirections> edge_, line_;  // there, along the directions of the samples
   std::array<float, kSectors / 2> edge_weight_{},
       line_weight_{};  // 1 / usual squared sum over a sector
 };
