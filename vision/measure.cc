@@ -73,13 +73,8 @@ Look LookAt(const Photo& photo,
             const StoredHints& hints,
             StageLog* log) {
   Look look;
-  ParallelFor(2, [&](int part) {
-    if (part == 0) {
-      look.scene = FindScene(photo, markers, hints, log);
-    } else {
-      look.sha256 = photo.Sha256();
-    }
-  });
+  ParallelAside([&] { look.scene = FindScene(photo, markers, hints, log); },
+                [&] { look.sha256 = photo.Sha256(); });
   return look;
 }
 

@@ -5,6 +5,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -33,17 +34,23 @@ class ThreadShare {
   int before_;
 };
 
+// What a call throws, if anything.
+std::exception_ptr ErrorOf(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (...) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
 // In the arena of the calling thread; each call may use its part of num_threads for certain.
 void CallEach(int count, int num_threads, const std::function<void(int)>& work) {
   const int share = std::max(1, num_threads / count);
   std::vector<std::exception_ptr> errors(static_cast<std::size_t>(count));
   const auto call = [&](int i) {
     const ThreadShare mine(share);
-    try {
-      work(i);
-    } catch (...) {
-      errors[static_cast<std::size_t>(i)] = std::current_exception();
-    }
+    errors[static_cast<std::size_t>(i)] = ErrorOf([&] { work(i); });
   };
   tbb::parallel_for(
       tbb::blocked_range<int>(0, count, 1),
@@ -75,6 +82,22 @@ void ParallelFor(int count, int num_threads, const std::function<void(int)>& wor
 
 void ParallelFor(int count, const std::function<void(int)>& work) {
   if (count > 0) CallEach(count, usable_threads, work);
+}
+
+void ParallelAside(const std::function<void()>& work, const std::function<void()>& aside) {
+  if (usable_threads < 2) {
+    work();
+    aside();
+    return;
+  }
+  tbb::task_arena idle(1, 0, tbb::task_arena::priority::low);
+  tbb::task_group group;
+  std::exception_ptr of_aside;
+  idle.execute([&] { group.run([&] { of_aside = ErrorOf(aside); }); });
+  const std::exception_ptr of_work = ErrorOf(work);
+  idle.execute([&] { group.wait(); });
+  if (of_work) std::rethrow_exception(of_work);
+  if (of_aside) std::rethrow_exception(of_aside);
 }
 
 void ParallelForBands(int rows, const std::function<void(int, int)>& work) {

@@ -19,6 +19,11 @@ void ParallelFor(int count, int num_threads, const std::function<void(int)>& wor
 // all of the machine's. So photographs measured beside each other leave each other their threads.
 void ParallelFor(int count, const std::function<void(int)>& work);
 
+// Calls both and returns when both are done: `aside` on a thread of the machine that is idle
+// meanwhile, even if work's parts leave it so for a moment only, or after `work`; there too where
+// this work has one thread. If both throw, the exception of `work` is rethrown.
+void ParallelAside(const std::function<void()>& work, const std::function<void()>& aside);
+
 // work(first, last) for bands of rows that together are [0, rows), by that ParallelFor; as high as
 // is worth a thread.
 void ParallelForBands(int rows, const std::function<void(int, int)>& work);

@@ -58,7 +58,7 @@ Rung ThresholdAll(const cv::Mat& distance,
   Rung rung;
   rung.distance = distance;
   for (int first = 0; first < all && !Settled(rung.candidates);) {
-    const int count = std::min(all - first, first == 0 ? kEnough : std::max(2, UsableThreads()));
+    const int count = std::min(all - first, first == 0 ? kEnough : UsableThreads());
     std::vector<Rung> seen = ParallelMap(count, [&](int i) {
       Candidate at_threshold = like;
       at_threshold.threshold = thresholds[static_cast<std::size_t>(first + i)];

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -76,6 +78,42 @@ TEST(ParallelFor, LeftOverThreadsAreSharedOut) {
     });
   });
   EXPECT_EQ(threads.size(), 4u);
+}
+
+TEST(ParallelAside, CallsBothWhateverTheThreads) {
+  for (const int threads : {1, 2, 5}) {
+    std::atomic<int> works = 0, asides = 0;
+    ParallelFor(10, threads, [&](int) {
+      ParallelAside([&] { ParallelFor(3, [&](int) { ++works; }); }, [&] { ++asides; });
+    });
+    EXPECT_EQ(works, 30) << threads << " threads";
+    EXPECT_EQ(asides, 10) << threads << " threads";
+  }
+}
+
+TEST(ParallelAside, RethrowsTheErrorOfTheWorkFirst) {
+  const auto fail = [](const std::string& cause) {
+    return [cause] { throw std::runtime_error(cause); };
+  };
+  const auto caught = [](const std::function<void()>& work, const std::function<void()>& aside) {
+    try {
+      ParallelAside(work, aside);
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(caught(fail("work"), fail("aside")), "work");
+  EXPECT_EQ(caught(fail("work"), [] {}), "work");
+  EXPECT_EQ(caught([] {}, fail("aside")), "aside");
+}
+
+TEST(ParallelAside, WorkWithinOneThreadStaysOnIt) {
+  ParallelFor(1, 1, [&](int) {
+    std::thread::id aside;
+    ParallelAside([] {}, [&] { aside = std::this_thread::get_id(); });
+    EXPECT_EQ(aside, std::this_thread::get_id());
+  });
 }
 
 }  // namespace
