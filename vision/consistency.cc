@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "vision/edge_relocation.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -59,9 +60,14 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseUnknownPivot(pivot, blades);
 }
 
+bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
+  return scale.sheet && pivot.source == "screw" && pivot.screw &&
+         pivot.screw->evidence < kFaintHead && AreFarUnlike(pivot.asymmetry) &&
+         IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
+}
+
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
-  constexpr double kFarUnlike = 0.025;
-  if (!scale.sheet || pivot.source != "screw" || std::abs(pivot.asymmetry) < kFarUnlike) return;
+  if (!scale.sheet || pivot.source != "screw" || !AreFarUnlike(pivot.asymmetry)) return;
   throw Refused(Reason::kLowContrast,
                 "edges: the two cutting edges are not each other's mirror images: they pass by the "
                 "pivot at distances that differ by " +
@@ -74,6 +80,7 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
 // Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
 // there no other transition accounts for it.
 bool AreSuspect(double asymmetry) { return std::abs(asymmetry) >= 0.010; }
+bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
 bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 

@@ -13,13 +13,18 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
+// Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
+// and seen from a known side, are no mirror images about it by far.
+[[nodiscard]] bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);
+
 // Throws Refused{kLowContrast} where the edges, seen from a known side and about a pivot that is
 // seen, are no mirror images by far: one of them is something else's border.
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
-// doubt, or that it is worth a look whether one is, or as nearly alike as those of rendered
-// scissors. Between the two nothing is said.
+// doubt (far unlike: that one of them, or the pivot, is wrong), or that it is worth a look whether
+// one is, or as nearly alike as those of rendered scissors. Between the two nothing is said.
+[[nodiscard]] bool AreFarUnlike(double asymmetry);
 [[nodiscard]] bool AreUnlike(double asymmetry);
 [[nodiscard]] bool AreSuspect(double asymmetry);
 [[nodiscard]] bool AreAlike(double asymmetry);

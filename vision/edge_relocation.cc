@@ -18,10 +18,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
-  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
-}
-
 // A blade located anew.
 struct Relocated {
   LocatedBlade blade;
@@ -90,10 +86,6 @@ std::optional<Relocated> LookWhereMirrored(const MirrorView& view,
 
 constexpr double kClear = 0.5;  // ambiguity
 constexpr double kVague = 1;    // px of common uncertainty
-
-bool IsClear(const LocatedEdge& edge) {
-  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVague;
-}
 
 bool IsDoubtful(const LocatedEdge& edge) {
   constexpr double kDoubt = 0.75;  // ambiguity
@@ -184,6 +176,14 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 }
 
 }  // namespace
+
+EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
+  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
+}
+
+bool IsClear(const LocatedEdge& edge) {
+  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVague;
+}
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!KnowsMirror(view, *pivot)) return;

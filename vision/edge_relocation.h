@@ -3,6 +3,7 @@
 #pragma once
 
 #include "vision/mirror_line.h"
+#include "vision/pivot_geometry.h"
 
 namespace bladecurve {
 
@@ -13,5 +14,11 @@ namespace bladecurve {
 // then. Where they do, but one of them is doubtful, that one is looked for, and taken if it is less
 // doubtful there.
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
+
+// The edges of two blades, of which one is the left one.
+[[nodiscard]] EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b);
+
+// Whether an edge is in no doubt by itself: no other border beside it, and known to a pixel.
+[[nodiscard]] bool IsClear(const LocatedEdge& edge);
 
 }  // namespace bladecurve

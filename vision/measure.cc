@@ -186,17 +186,25 @@ Pivot LocatePivot(const Photo& photo,
                   const Parts& parts,
                   const StoredHints& hints,
                   StageLog* log) {
-  const Blades& blades = parts.blades;
-  const bool upper_on_left = blades.upper.on_left;
-  const LocatedBlade& left = upper_on_left ? blades.upper : blades.lower;
-  const LocatedBlade& right = upper_on_left ? blades.lower : blades.upper;
   const PivotSearch search{
-      scene, {PointsOf(left), PointsOf(right)}, hints.pivot_px, parts.at_joint};
+      scene, PairOf(parts.blades.upper, parts.blades.lower), hints.pivot_px, parts.at_joint};
   Pivot pivot = FindPivot(photo.grey(), scale, search);
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
-  RefuseInconsistent(pivot, blades);
+  RefuseInconsistent(pivot, parts.blades);
   log->Ran("pivot", pivot.source);
   return pivot;
+}
+
+// Where what was taken for the screw is none, the blades alone say where they turn.
+void DropFalseHead(const ScaleResult& scale,
+                   const Scene& scene,
+                   const Blades& blades,
+                   Pivot* pivot,
+                   StageLog* log) {
+  if (!IsFalseHead(*pivot, scale, blades)) return;
+  *pivot = PivotByBlades(scene, PairOf(blades.upper, blades.lower));
+  RefuseInconsistent(*pivot, blades);
+  log->Ran("pivot-again", "geometry: about the faint head the edges are no mirror images");
 }
 
 // Paths, ends and pivot as the viewer sees them, and the trend in mm.
@@ -248,6 +256,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   const MirrorView view{photo, scale, scene};
   RelocateUnlikeEdges(view, &pivot, &parts.blades);
+  DropFalseHead(scale, scene, parts.blades, &pivot, &log);
   RefuseUnlikeEdges(pivot, scale);
   CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/consistency.h"
+
 namespace bladecurve {
 namespace {
 
@@ -119,12 +121,12 @@ ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double s
 }
 
 // All about the overlap, for heads beyond doubt: crotches that shadows fill put it elsewhere.
-ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene) {
-  constexpr double kOfOverlap = 0.6, kLeastEvidence = 12;
+ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double least_evidence) {
+  constexpr double kOfOverlap = 0.6;
   const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
   ScrewSearch search = SearchForHead(
       scale, scene, scene.shank_crotch_px + 0.5 * overlap, kOfOverlap * overlap.norm());
-  search.least_evidence = kLeastEvidence;
+  search.least_evidence = least_evidence;
   return search;
 }
 
@@ -146,6 +148,29 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
   return clearest;
 }
 
+// Where the axis that `screw` shows meets the plane of the edges.
+PlacePx FootBelow(const Screw& screw, const ScaleResult& scale, const Scene& scene) {
+  const PlacePx head = CentreOf(screw);
+  const PlacePx foot = BelowHead(head.point_px, scale, scene);
+  return {foot.point_px, head.covariance_px2 + foot.covariance_px2};
+}
+
+// A head all about the overlap that outdoes `seen`, none or a faint one about which the edges are
+// no mirror images by far: one about which they are, beyond doubt.
+std::optional<Screw> LookAllAbout(const cv::Mat& grey,
+                                  const ScaleResult& scale,
+                                  const PivotSearch& known,
+                                  const std::optional<Screw>& seen) {
+  const auto asymmetry = [&](const Screw& screw) {
+    return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
+  };
+  if (!seen) return FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
+  if (seen->evidence >= kFaintHead || !AreFarUnlike(asymmetry(*seen))) return seen;
+  const std::optional<Screw> other =
+      FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kBeyondDoubt));
+  return other && !AreSuspect(asymmetry(*other)) ? other : seen;
+}
+
 // What the picture says of the edges' overlap: without a screw, where the members cross.
 Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMirror& mirror) {
   Estimate behind = BehindByWaist(search.scene, mirror);
@@ -156,6 +181,14 @@ Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMi
   const double length = std::max(1.0, mirror.length_px + behind.value);
   return {EdgeOverlap(search.edges, mirror.point_px - behind.value * mirror.direction),
           mirror.sine * behind.sigma / length};
+}
+
+// The edges about the pivot.
+void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
+  pivot->asymmetry = EdgeAsymmetry(search.edges, pivot->point_px);
+  const Estimate overlap = OverlapSeen(*pivot, search, mirror);
+  pivot->overlap = overlap.value;
+  pivot->overlap_sigma = overlap.sigma;
 }
 
 }  // namespace
@@ -174,21 +207,23 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.covariance_px2.setIdentity();
     pivot.source = "hint";
   } else {
-    pivot.screw = LookForScrew(grey, scale, search, pivot.point_px);
-    if (!pivot.screw)
-      pivot.screw = FindScrew(grey, scale.tone, SearchAllAbout(scale, search.scene));
+    pivot.screw =
+        LookAllAbout(grey, scale, search, LookForScrew(grey, scale, search, pivot.point_px));
   }
   if (pivot.screw) {
-    const PlacePx head = CentreOf(*pivot.screw);
-    const PlacePx foot = BelowHead(head.point_px, scale, search.scene);
+    const PlacePx foot = FootBelow(*pivot.screw, scale, search.scene);
     pivot.point_px = foot.point_px;
-    pivot.covariance_px2 = head.covariance_px2 + foot.covariance_px2;
+    pivot.covariance_px2 = foot.covariance_px2;
     pivot.source = "screw";
   }
-  pivot.asymmetry = EdgeAsymmetry(search.edges, pivot.point_px);
-  const Estimate overlap = OverlapSeen(pivot, search, mirror);
-  pivot.overlap = overlap.value;
-  pivot.overlap_sigma = overlap.sigma;
+  Compare(search, mirror, &pivot);
+  return pivot;
+}
+
+Pivot PivotByBlades(const Scene& scene, const EdgePair& edges) {
+  const EdgeMirror mirror = MirrorOf(edges);
+  Pivot pivot = FromGeometry(scene, mirror);
+  Compare({scene, edges, std::nullopt}, mirror, &pivot);
   return pivot;
 }
 

@@ -42,9 +42,13 @@ struct PivotSearch {
 
 // In the plane of the edges: below the screw's head if that is seen; else on the line about which
 // the two edges mirror each other, where the members' overlap and the edges' usual overlap put it.
-// How obliquely a head is seen the markers say, where there are any.
+// How obliquely a head is seen the markers say, where there are any. Where a faint head leaves the
+// edges far unlike, one beyond doubt elsewhere is taken about which they mirror each other.
 [[nodiscard]] Pivot FindPivot(const cv::Mat& grey,
                               const ScaleResult& scale,
                               const PivotSearch& search);
+
+// By the two edges and the silhouette alone, as where no head is seen.
+[[nodiscard]] Pivot PivotByBlades(const Scene& scene, const EdgePair& edges);
 
 }  // namespace bladecurve

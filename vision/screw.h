@@ -32,9 +32,9 @@ struct Screw {
   std::optional<ScrewSlot> slot;  // if the head has one
 };
 
-// Evidence of a head that need not be looked for any further; shadows and facets of joints
-// reach 12.
-inline constexpr double kBeyondDoubt = 15;
+// Evidence of a head that need not be looked for any further; less than the second is faint:
+// shadows and facets of joints reach that.
+inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
 
 struct ScrewSearch {
   Eigen::Vector2d guess_px;     // where geometry puts the pivot

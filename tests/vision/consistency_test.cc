@@ -72,6 +72,30 @@ TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
   EXPECT_NO_THROW(RefuseUnlikeEdges(given, tilt_known));
 }
 
+TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
+  ScaleResult tilt_known, tilt_unknown;
+  tilt_known.sheet.emplace();
+  const Blades clear = BladesWithRivals(0, 0);
+  Pivot faint = PivotSeen(0.05);
+  faint.screw.emplace();
+  faint.screw->evidence = kFaintHead - 1;
+  EXPECT_TRUE(IsFalseHead(faint, tilt_known, clear));
+  EXPECT_FALSE(IsFalseHead(faint, tilt_unknown, clear));
+  Blades vague = clear;
+  vague.lower.edge.common_sigma_px = 5;  // then it may be the edge that is wrong
+  EXPECT_FALSE(IsFalseHead(faint, tilt_known, vague));
+  vague = clear;
+  vague.upper.edge.ambiguity = 0.9;
+  EXPECT_FALSE(IsFalseHead(faint, tilt_known, vague));
+  Pivot alike = faint;
+  alike.asymmetry = 0.02;
+  EXPECT_FALSE(IsFalseHead(alike, tilt_known, clear));
+  Pivot plain = faint;
+  plain.screw->evidence = kFaintHead + 1;
+  EXPECT_FALSE(IsFalseHead(plain, tilt_known, clear));
+  EXPECT_THROW(RefuseUnlikeEdges(plain, tilt_known), Refused);
+}
+
 // The left edge passes the pivot by 9 px less than the right one: so it would if its border were
 // the transition 9 px further out, or the right one's 9 px further in.
 TEST(DoubtUnlikeEdges, DoubtsTheEdgeWhoseOtherTransitionWouldMakeThemAlike) {

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "measured_blades.h"
+#include "vision/consistency.h"
+#include "vision/edge_relocation.h"
 
 namespace bladecurve {
 namespace {
@@ -26,7 +29,7 @@ Scene WithCrotchAhead(Scene scene, double shares) {
 TEST(FindPivot, SeesTheScrewWhereverTheOverlapSeemsToBe) {
   constexpr double kClosePx = 1.5;  // the head stands above the edges' plane
   const Measured measured{SceneWithMarkers()};
-  const EdgePair edges{PointsOf(measured.blades.upper), PointsOf(measured.blades.lower)};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
   for (const double shares : {0.0, 4.0}) {
     const Scene scene = WithCrotchAhead(measured.scene, shares);
     const std::optional<Screw> at_joint = LookAtJoint(measured.photo.grey(), measured.scale, scene);
@@ -36,6 +39,48 @@ TEST(FindPivot, SeesTheScrewWhereverTheOverlapSeemsToBe) {
     EXPECT_EQ(pivot.source, "screw") << shares;
     EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx) << shares;
   }
+}
+
+// A rim seen where none is, aside of the line about which the blades mirror each other.
+Screw HeadAside(const Measured& measured, double evidence) {
+  constexpr double kAsidePx = 20, kRadiusPx = 10;
+  const Vector2d& axis = measured.truth.axis_px;
+  Screw screw;
+  screw.center_px = measured.truth.screw_px + kAsidePx * Vector2d(-axis.y(), axis.x());
+  screw.covariance_px2.setIdentity();
+  screw.semi_major_px = screw.semi_minor_px = kRadiusPx;
+  screw.evidence = evidence;
+  return screw;
+}
+
+TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther) {
+  constexpr double kClosePx = 1.5, kFarPx = 15;
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
+  const auto off_px = [&](const Screw& at_joint) {
+    const PivotSearch search{scene, edges, std::nullopt, at_joint};
+    const Pivot pivot = FindPivot(measured.photo.grey(), measured.scale, search);
+    return (pivot.point_px - measured.truth.pivot_px).norm();
+  };
+  EXPECT_LT(off_px(HeadAside(measured, kFaintHead - 1)), kClosePx);
+  EXPECT_GT(off_px(HeadAside(measured, kFaintHead + 1)), kFarPx);  // it is seen: the edges err
+  Screw in_line = HeadAside(measured, kFaintHead - 1);
+  in_line.center_px = measured.truth.screw_px - kFarPx * measured.truth.axis_px;
+  EXPECT_GT(off_px(in_line), 0.8 * kFarPx);  // the edges have nothing against it
+}
+
+TEST(PivotByBlades, TakesNoNoticeOfTheScrewAndSaysHowVagueThatIs) {
+  const Measured measured{SceneWithMarkers()};
+  const Pivot pivot =
+      PivotByBlades(measured.scene, PairOf(measured.blades.upper, measured.blades.lower));
+  EXPECT_EQ(pivot.source, "geometry");
+  EXPECT_FALSE(pivot.screw.has_value());
+  EXPECT_TRUE(AreAlike(pivot.asymmetry)) << pivot.asymmetry;
+  const Vector2d off = pivot.point_px - measured.truth.pivot_px;
+  constexpr double kChiSquare = 9.21;  // of two coordinates, 99 %
+  EXPECT_LT(off.dot(pivot.covariance_px2.ldlt().solve(off)), kChiSquare);
+  EXPECT_GT(pivot.covariance_px2.trace(), 25);
 }
 
 }  // namespace
