@@ -61,9 +61,8 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
 }
 
 bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
-  return scale.sheet && pivot.source == "screw" && pivot.screw &&
-         pivot.screw->evidence < kFaintHead && AreFarUnlike(pivot.asymmetry) &&
-         IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
+  return scale.sheet && pivot.source == "screw" && pivot.screw && IsFaint(*pivot.screw) &&
+         AreFarUnlike(pivot.asymmetry) && IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
 }
 
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {

@@ -165,7 +165,7 @@ std::optional<Screw> LookAllAbout(const cv::Mat& grey,
     return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
   };
   if (!seen) return FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
-  if (seen->evidence >= kFaintHead || !AreFarUnlike(asymmetry(*seen))) return seen;
+  if (!IsFaint(*seen) || !AreFarUnlike(asymmetry(*seen))) return seen;
   const std::optional<Screw> other =
       FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kBeyondDoubt));
   return other && !AreSuspect(asymmetry(*other)) ? other : seen;

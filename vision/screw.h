@@ -32,9 +32,14 @@ struct Screw {
   std::optional<ScrewSlot> slot;  // if the head has one
 };
 
-// Evidence of a head that need not be looked for any further; less than the second is faint:
-// shadows and facets of joints reach that.
+// Evidence of a head that need not be looked for any further; shadows and facets of joints reach
+// the second.
 inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
+
+// Whether it may be one of those: they show no slot.
+[[nodiscard]] inline bool IsFaint(const Screw& screw) {
+  return screw.evidence < kFaintHead && !screw.slot;
+}
 
 struct ScrewSearch {
   Eigen::Vector2d guess_px;     // where geometry puts the pivot

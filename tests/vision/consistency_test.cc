@@ -94,6 +94,9 @@ TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
   plain.screw->evidence = kFaintHead + 1;
   EXPECT_FALSE(IsFalseHead(plain, tilt_known, clear));
   EXPECT_THROW(RefuseUnlikeEdges(plain, tilt_known), Refused);
+  Pivot slotted = faint;
+  slotted.screw->slot.emplace();
+  EXPECT_FALSE(IsFalseHead(slotted, tilt_known, clear));
 }
 
 // The left edge passes the pivot by 9 px less than the right one: so it would if its border were
