@@ -117,6 +117,7 @@ std::optional<Screw> FindScrew(const cv::Mat& grey,
   screw.semi_minor_px = fit.rim.SemiAxes()[0];
   screw.angle_rad = fit.rim.MajorAngle();
   screw.support = best.fit.support;
+  screw.third_support = best.fit.third_support;
   screw.evidence = best.evidence;
   if (lacking <= 0) screw.slot = FindSlot(grey, tone, screw.center_px, fit.rim.MeanRadius());
   return screw;

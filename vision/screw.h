@@ -24,8 +24,9 @@ struct Screw {
   Eigen::Vector2d center_px;
   Eigen::Matrix2d covariance_px2;  // of the centre of what is seen of the rim
   double semi_major_px = 0, semi_minor_px = 0;
-  double angle_rad = 0;  // of the major axis, from +x towards +y (down)
-  double support = 0;    // share of the rim that is seen, 0 to 1
+  double angle_rad = 0;      // of the major axis, from +x towards +y (down)
+  double support = 0;        // share of the rim that is seen, 0 to 1
+  double third_support = 0;  // the same of that third of the rim where it is least
   // ln of the odds against chance by the rim alone; at least ScrewSearch::least_evidence, or less
   // by what a slot adds.
   double evidence = 0;

@@ -70,6 +70,22 @@ TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther)
   EXPECT_GT(off_px(in_line), 0.8 * kFarPx);  // the edges have nothing against it
 }
 
+TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const auto variance_px2 = [&](double third_support) {
+    Screw screw = HeadAside(measured, 2 * kBeyondDoubt);
+    screw.covariance_px2 *= 1e-6;  // so that the rest shows
+    screw.third_support = third_support;
+    const PivotSearch search{measured.scene, edges, std::nullopt, screw};
+    return FindPivot(measured.photo.grey(), measured.scale, search).covariance_px2.trace();
+  };
+  const double alike = variance_px2(1), between = variance_px2(0.6), unlike = variance_px2(0.3);
+  EXPECT_LT(alike, between);
+  EXPECT_LT(between, unlike);
+  EXPECT_EQ(variance_px2(0.8), alike);
+}
+
 TEST(PivotByBlades, TakesNoNoticeOfTheScrewAndSaysHowVagueThatIs) {
   const Measured measured{SceneWithMarkers()};
   const Pivot pivot =
