@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "samples/validation_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "vision/pivot.h"
 #include "vision/scale.h"
 
 namespace bladecurve {
@@ -35,11 +37,21 @@ double DrawNormal(std::mt19937_64* random) {
   return radius * std::cos(2 * std::numbers::pi * uniform());
 }
 
+// Heads stand as high and slots are cut as far off their centre as the program takes it that they
+// may.
+void VaryScrew(std::mt19937_64* random, ScissorsSpec* scissors) {
+  constexpr double kLeastMm = 0.5;  // a head that does not sink into the blade
+  scissors->screw_mm = std::max(kLeastMm, kHeadMm + kHeadSigmaMm * DrawNormal(random));
+  scissors->slot_off.x() = kEndsOffCentre * DrawNormal(random);
+  scissors->slot_off.y() = kSlotOffCentre * DrawNormal(random);
+}
+
 void MisstateKnowledge(ValidationScene* scene) {
   std::mt19937_64 random(scene->spec.seed);
   scene->focal_error = kCalibratedFocalSigma * DrawNormal(&random);
   scene->k1_error = kCalibratedK1Sigma * DrawNormal(&random);
   scene->height_error_mm = kGivenHeightSigmaMm * DrawNormal(&random);
+  VaryScrew(&random, &scene->spec.scissors);
 }
 
 }  // namespace

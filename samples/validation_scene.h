@@ -17,7 +17,8 @@ struct ValidationScene {
   std::optional<Reason>
       refuse;  // the reason for which it must be refused; none: it can be measured
   // By how much the calibration and the height given to the program are off: drawn from what it
-  // takes them to be good for.
+  // takes them to be good for. So are, in `spec`, the height of the screw's head and its slot's
+  // place.
   double focal_error = 0, k1_error = 0, height_error_mm = 0;
 };
 

@@ -36,10 +36,6 @@ Pivot FromGeometry(const Scene& scene, const EdgeMirror& mirror) {
   return pivot;
 }
 
-// The rim of a head stands above the plane of the edges by the thickness of a blade and of the
-// head.
-constexpr double kHeadMm = 2.0, kHeadSigmaMm = 0.6;
-
 // Seen a little from the side, the head is not where the axis meets the plane of the edges. Without
 // markers nobody knows from which side: heads are about a tenth of the shank's width high, views
 // about five degrees off.

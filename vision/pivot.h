@@ -15,6 +15,10 @@
 
 namespace bladecurve {
 
+// The rim of a head stands above the plane of the edges by the thickness of a blade and of the
+// head: by how much, and its standard uncertainty.
+inline constexpr double kHeadMm = 2.0, kHeadSigmaMm = 0.6;
+
 // The point about which the blades turn; stored pixels.
 struct Pivot {
   Eigen::Vector2d point_px;

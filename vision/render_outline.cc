@@ -182,15 +182,17 @@ Ring ScrewRim(double radius_mm) {
   return Ellipse(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(radius_mm), false);
 }
 
-Ring ScrewSlot(double radius_mm, double direction_rad) {
-  constexpr double kHalfWidth = 0.16,
-                   kHalfLength = 0.97;  // of the radius; the slot cuts through the rim
+Ring ScrewSlot(const ScissorsSpec& spec) {
+  constexpr double kHalfWidth = 0.16, kHalfLength = 0.97;  // of the radius; it cuts through the rim
+  const double from = std::max(-1.0, spec.slot_off.x() - kHalfLength);  // no further than the head
+  const double to = std::min(1.0, spec.slot_off.x() + kHalfLength);
+  const double low = spec.slot_off.y() - kHalfWidth, high = spec.slot_off.y() + kHalfWidth;
   Ring slot;
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-kHalfLength, -kHalfWidth),
-                                        Eigen::Vector2d(kHalfLength, -kHalfWidth),
-                                        Eigen::Vector2d(kHalfLength, kHalfWidth),
-                                        Eigen::Vector2d(-kHalfLength, kHalfWidth)}) {
-    slot.push_back(Eigen::Rotation2Dd(direction_rad) * (radius_mm * corner));
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(from, low),
+                                        Eigen::Vector2d(to, low),
+                                        Eigen::Vector2d(to, high),
+                                        Eigen::Vector2d(from, high)}) {
+    slot.push_back(Eigen::Rotation2Dd(spec.slot_rad) * (spec.screw_radius_mm * corner));
   }
   return slot;
 }

@@ -34,7 +34,7 @@ struct BladeOutline {
 
 // The head of the screw and the slot across it, in the blade's frame.
 [[nodiscard]] Ring ScrewRim(double radius_mm);
-[[nodiscard]] Ring ScrewSlot(double radius_mm, double direction_rad);
+[[nodiscard]] Ring ScrewSlot(const ScissorsSpec& spec);
 
 // Frames. Scissors: physics.md's; world: on the sheet.
 [[nodiscard]] Eigen::Vector2d ScissorsFromBlade(const Eigen::Vector2d& blade_mm,

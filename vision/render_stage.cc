@@ -134,13 +134,13 @@ void Stage::AddScrew() {
   const bool upper = scene_.scissors.upper_on_top;
   const Metal& metal = upper ? upper_metal_ : lower_metal_;
   const double radius = scene_.scissors.screw_radius_mm;
-  const double height_mm = scene_.edge_height_mm + scene_.scissors.thickness_mm;
+  const double height_mm = scene_.edge_height_mm + scene_.scissors.screw_mm;
   layers_.push_back(MakeLayer(Project({ScrewRim(radius)}, upper, height_mm),
                               [=, this, &metal](const Eigen::Vector2d& px) {
                                 return metal.ScrewAt(BladeFromPixel(px, upper, height_mm));
                               }));
   layers_.push_back(
-      MakeLayer(Project({ScrewSlot(radius, scene_.scissors.slot_rad)}, upper, height_mm),
+      MakeLayer(Project({ScrewSlot(scene_.scissors)}, upper, height_mm),
                 [=, this, &metal](const Eigen::Vector2d& px) {
                   constexpr double kSlotDepthShade = 0.18;  // little light reaches its bottom
                   return Eigen::Vector3d(kSlotDepthShade *

@@ -84,7 +84,7 @@ SceneTruth MakeTruth(const SceneSpec& scene, const Camera& camera) {
   truth.edge_height_mm = scene.edge_height_mm;
   truth.camera = camera.truth();
   truth.pivot_px = PixelFromScissors(scene, camera, {0, 0});
-  const double screw_mm = scene.edge_height_mm + scene.scissors.thickness_mm;
+  const double screw_mm = scene.edge_height_mm + scene.scissors.screw_mm;
   truth.screw_px = camera.PixelFromWorld({scene.pivot_mm.x(), scene.pivot_mm.y(), screw_mm});
   const Eigen::Vector2d px_per_mm = (PixelFromScissors(scene, camera, {kDeltaMm, 0}) -
                                      PixelFromScissors(scene, camera, {-kDeltaMm, 0})) /

@@ -19,6 +19,10 @@ struct ScrewSlot {
   bool ends_seen = false;          // both, at the rim
 };
 
+// How far off the centre slots are cut, standard, of the head's radius: across, and along, where
+// light at the two ends differs as well.
+inline constexpr double kSlotOffCentre = 0.025, kEndsOffCentre = 0.05;
+
 // The head of the screw or rivet about which the blades turn, as an ellipse.
 struct Screw {
   Eigen::Vector2d center_px;

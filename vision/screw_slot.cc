@@ -24,7 +24,6 @@ constexpr double kReach = 0.7;        // along: clear of the rim
 constexpr double kMostOff = 0.2;      // of the slot from where the rim's fit puts the centre
 constexpr int kSections = 9;          // along the slot
 constexpr double kLeastRadiusPx = 8;  // smaller heads show no slot that could be told from a speck
-constexpr double kSlotOffCentre = 0.025, kEndsOffCentre = 0.05;  // as cut, and as lit
 
 // The head in its own frame: (0, 0) its centre, 1 its radius, x along `along`.
 class HeadFrame {

@@ -23,14 +23,17 @@ struct ScissorsSpec {
   double width_mm = 10;  // of a blade at the pivot
   double tip_radius_mm = 1.2;   // blunt Mayo 1.5, Metzenbaum 1, iris 0.3
   double bevel_mm = 1.6;        // ground band along the edge; 0: none
-  double thickness_mm = 1.9;    // of a blade; the screw stands that high above the edge plane
+  double thickness_mm = 1.9;    // of a blade
   double shank_mm = 5.0;        // width of a shank
   double shank_length_mm = 78;  // pivot to where the ring begins
   double ring_mm = 24;          // inner length of a ring
   double screw_radius_mm = 2.6;
   bool screw_visible = true;  // false: a pin ground flush, as in many joints
+  double screw_mm = 1.9;      // how high its rim stands above the edge plane
   double slot_rad = 0.6;      // direction of the screw's slot
-  bool upper_on_top = true;   // which blade lies over the other
+  // How far off the screw's centre the slot is cut, along and across it, of the screw's radius.
+  Eigen::Vector2d slot_off = Eigen::Vector2d::Zero();
+  bool upper_on_top = true;  // which blade lies over the other
 };
 
 enum class Finish { kSteel, kGold, kBlack };

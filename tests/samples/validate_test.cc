@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "samples/csv_text.h"
@@ -15,6 +16,7 @@
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
 #include "tests/samples/program_run.h"
+#include "vision/pivot.h"
 #include "vision/render.h"
 
 namespace bladecurve {
@@ -152,6 +154,34 @@ TEST(MakeValidationScene, RefusesEveryTenthSceneForItsOwnReason) {
       }
     }
   }
+}
+
+// Mean and standard deviation.
+std::pair<double, double> MeanAndSpread(const std::vector<double>& values) {
+  double sum = 0, squares = 0;
+  for (const double value : values) sum += value;
+  const double mean = sum / static_cast<double>(values.size());
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return {mean, std::sqrt(squares / static_cast<double>(values.size()))};
+}
+
+TEST(MakeValidationScene, VariesTheScrewAsTheProgramTakesItToVary) {
+  constexpr int kScenes = 2000;
+  std::vector<double> height_mm, slot_along, slot_across;
+  for (int number = 0; number < kScenes; ++number) {
+    const ValidationScene scene = MakeValidationScene(number, 3, Difficulty::kStandard);
+    height_mm.push_back(scene.spec.scissors.screw_mm);
+    slot_along.push_back(scene.spec.scissors.slot_off.x());
+    slot_across.push_back(scene.spec.scissors.slot_off.y());
+  }
+  const double sigmas = 4 / std::sqrt(kScenes);  // of the mean, and of the spread all the more
+  const auto expect = [&](const std::vector<double>& values, double mean, double spread) {
+    EXPECT_NEAR(MeanAndSpread(values).first, mean, sigmas * spread);
+    EXPECT_NEAR(MeanAndSpread(values).second, spread, sigmas * spread);
+  };
+  expect(height_mm, kHeadMm, kHeadSigmaMm);
+  expect(slot_along, 0, kEndsOffCentre);
+  expect(slot_across, 0, kSlotOffCentre);
 }
 
 TEST(Validate, GivesTheSameBytesForTheSameSeed) {

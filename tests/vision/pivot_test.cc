@@ -86,6 +86,21 @@ TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {
   EXPECT_EQ(variance_px2(0.8), alike);
 }
 
+TEST(FindPivot, SeesASlotWhereItIsCut) {
+  constexpr double kClose = 0.03;  // of the radius
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.slot_off = {0, 0.1};
+  spec.scissors.screw_mm = 3;  // the head moves in the tilted view
+  const Measured measured{spec};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const Pivot pivot = FindPivot(
+      measured.photo.grey(), measured.scale, {measured.scene, edges, std::nullopt, std::nullopt});
+  ASSERT_TRUE(pivot.screw && pivot.screw->slot);
+  const double off_px = (pivot.screw->slot->center_px - measured.truth.screw_px).norm();
+  EXPECT_NEAR(off_px / pivot.screw->semi_major_px, spec.scissors.slot_off.norm(), kClose);
+  EXPECT_GT((measured.truth.screw_px - TruthOf(SceneWithMarkers()).screw_px).norm(), 0.2);
+}
+
 TEST(PivotByBlades, TakesNoNoticeOfTheScrewAndSaysHowVagueThatIs) {
   const Measured measured{SceneWithMarkers()};
   const Pivot pivot =
