@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace bladecurve {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kRadiusRatio = 1.07;
 constexpr float kLeastScore = 0.4F;   // below: what any textured ground reaches by chance
 constexpr std::size_t kPeaks = 100;   // circles to be asked for straight edges
 constexpr std::size_t kClimbed = 20;  // circles to be bent into ellipses
-constexpr std::size_t kKept = 8;      // ellipses to be looked at closely
+constexpr std::size_t kKept = 12;     // ellipses to be looked at closely
 constexpr double kSamePx = 0.7;  // closer in centre and radius than this: the same rim found twice
 // |ln(a/b)|/2: beyond 38 degrees of tilt it is half a head cut off by its slot.
 constexpr double kMostElongation = 0.12;
@@ -143,10 +144,14 @@ std::vector<RimCandidate> FindRimCandidates(const RimField& field, const OctaveS
     candidate.score = field.ScoreWithoutTangents(candidate.rim);
   }
   KeepBest(candidates, kClimbed);
-  for (RimCandidate& candidate : candidates) {
-    candidate = Climb(field, candidate);
-    candidate.score = field.ScoreWithoutTangents(candidate.rim);
+  std::vector<RimCandidate> climbed;
+  for (const RimCandidate& candidate : candidates) {
+    climbed.push_back(Climb(field, candidate));
+    climbed.back().score = field.ScoreWithoutTangents(climbed.back().rim);
+    // It may have left a rim for the straight edges of a shank.
+    if (climbed.back().score < candidate.score) climbed.push_back(candidate);
   }
+  candidates = std::move(climbed);
   KeepBest(candidates, kClimbed);
   candidates = WithoutRepeats(candidates);
   KeepBest(candidates, kKept);

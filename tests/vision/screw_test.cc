@@ -302,6 +302,48 @@ TEST(FindScrew, ASlotMakesUpForAFaintRimAndNothingElseDoes) {
   }
 }
 
+// Paper beyond two parallel lines on either side of the head.
+void LayOnPaper(const HeadSpec& head, double half_width_px, double angle_rad, cv::Mat* grey) {
+  constexpr double kPaper = 225, kSharpness = 2;  // grey value; of the lines, per px
+  const Vector2d across(-std::sin(angle_rad), std::cos(angle_rad));
+  for (int y = 0; y < grey->rows; ++y) {
+    for (int x = 0; x < grey->cols; ++x) {
+      const double off = std::abs(across.dot(Vector2d(x, y) - head.center_px)) - half_width_px;
+      const double metal = 1 / (1 + std::exp(kSharpness * off));
+      uchar& value = grey->at<uchar>(y, x);
+      value = static_cast<uchar>(std::lround(metal * value + (1 - metal) * kPaper));
+    }
+  }
+}
+
+constexpr std::uint32_t kRings = 16;
+
+// Of kRings thin rings of that level on a dark shank of that half width, in radii.
+std::uint32_t CountRingsFound(double level, double half_width) {
+  constexpr double kRadius = 16;
+  constexpr std::uint32_t kFirst = 101;
+  std::uint32_t found = 0;
+  for (std::uint32_t seed = kFirst; seed < kFirst + kRings; ++seed) {
+    HeadSpec head = RandomHead(kRadius, seed);
+    head.center_px += Vector2d::Constant(22);  // room for the search on all sides
+    head.side_px += 44;
+    head.semi_minor_px = kRadius;
+    head.plate = 0.01;
+    head.groove = level;
+    head.noise = 4;
+    cv::Mat grey = RenderHead(head);
+    LayOnPaper(head, half_width * kRadius, head.angle_rad, &grey);
+    const std::optional<Screw> screw = Find(grey, head);
+    if (screw && (screw->center_px - head.center_px).norm() < 0.5) ++found;
+  }
+  return found;
+}
+
+// The outlines of a dark shank on white paper stand out far more than the ring between them.
+TEST(FindScrew, MostFaintRingsBetweenBrightEdgesAreFound) {
+  EXPECT_GE(CountRingsFound(0.012, 1.5) + CountRingsFound(0.02, 1.4), 0.875 * 2 * kRings);
+}
+
 TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {
   const ToneCurve tone = SrgbToneCurve();
   const cv::Mat tiny(1, 1, CV_8UC1, cv::Scalar(7)), flat(50, 300, CV_8UC1, cv::Scalar(255));
