@@ -56,8 +56,8 @@ double DoubtOfFaintRim(const Screw& screw) {
 }
 
 // Of what the rim's fit cannot tell: a chamfer not alike all round, a rim not quite round. Over
-// heads rendered elsewhere and brushed ones the centre is off by 1 % of the radius where every
-// third of the rim looks like the rest, by 2 % where half of one does not.
+// heads rendered elsewhere and brushed ones the centre is off by 1.2 % of the radius where
+// every third of the rim looks like the rest, by 2 % where half of one does not.
 double ShareOfShape(const Screw& screw) {
   constexpr double kAlike = 0.7, kUnlike = 0.5;  // support of the poorest third
   constexpr double kLeast = 0.012, kMost = 0.02;
@@ -65,9 +65,8 @@ double ShareOfShape(const Screw& screw) {
                      std::clamp((screw.third_support - kUnlike) / (kAlike - kUnlike), 0.0, 1.0);
 }
 
-// Where one
-// side follows something else than the rim, the ellipse is too short across it by as much as its
-// centre is off; 2 % is what a view 11 degrees off the axis explains.
+// The same, and that where one side follows something else than the rim, the ellipse is too short
+// across it by as much as its centre is off; 2 % is what a view 11 degrees off the axis explains.
 Eigen::Matrix2d ShapeCovariance(const Screw& screw) {
   constexpr double kFlattened = 0.02;
   const double even_px =
