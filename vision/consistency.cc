@@ -6,7 +6,6 @@
 #include <cmath>
 #include <string>
 
-#include "vision/edge_relocation.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -52,12 +51,24 @@ void RefuseJaws(const Pivot& pivot) {
       "say where the screw is: --pivot X,Y");
 }
 
+constexpr double kVaguePx = 1;  // common uncertainty
+
 }  // namespace
 
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseOutOfPlane(pivot);
   RefuseJaws(pivot);
   RefuseUnknownPivot(pivot, blades);
+}
+
+bool IsClear(const LocatedEdge& edge) {
+  constexpr double kClear = 0.5;  // ambiguity
+  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVaguePx;
+}
+
+bool IsDoubtful(const LocatedEdge& edge) {
+  constexpr double kDoubt = 0.75;  // ambiguity
+  return edge.ambiguity > kDoubt || edge.common_sigma_px > kVaguePx;
 }
 
 bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {

@@ -13,6 +13,11 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
+// Whether an edge by itself is in no doubt: no other border beside it, and known to a pixel; or in
+// grave doubt. Between the two nothing is said.
+[[nodiscard]] bool IsClear(const LocatedEdge& edge);
+[[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
+
 // Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
 // and seen from a known side, are no mirror images about it by far.
 [[nodiscard]] bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);

@@ -51,6 +51,7 @@ struct LocatedEdge {
   double noise = std::numeric_limits<double>::quiet_NaN();  // of a pixel, linear light
   double correlation_px = 0;   // neighbours closer than this are not independent
   double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow
+  double slope_sigma_px = 0;   // the part of it that light makes which slopes beside the edge
   double ambiguity =
       0;                // 0: one clear transition; towards 1: several about as good (bevel, shadow)
   double rival_px = 0;  // from the edge to the other transition, positive out of the blade

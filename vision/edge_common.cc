@@ -55,8 +55,16 @@ double BloomSigma(const EdgeFit& fit, bool blur_known) {
          std::sqrt(TotalBlurVariance(fit.blur_px));
 }
 
-// Light that slopes beside the edge is continued to it as a straight line, or a parabola: a third
-// of what it changes within reach may be wrong, and moves the half-way level.
+// Nothing for a rival that is much worse; for one that is as good, most of the way to it: over
+// rendered scenes the rival is then the border almost every other time.
+double RivalSigma(const ChosenTransition& chosen) {
+  constexpr double kNoRival = 0.45, kShare = 0.6;
+  const double doubt = std::max(chosen.ambiguity - kNoRival, 0.0) / (1 - kNoRival);
+  return doubt * kShare * std::abs(chosen.rival_px);
+}
+
+}  // namespace
+
 double SlopeSigma(const EdgeFit& fit) {
   constexpr double kReach = 5, kWrong = 0.35;  // px; share
   std::vector<double> relative;
@@ -67,16 +75,6 @@ double SlopeSigma(const EdgeFit& fit) {
   const double wrong = kWrong * kReach * Median(std::move(relative));
   return wrong * std::sqrt(0.5 * std::numbers::pi * TotalBlurVariance(fit.blur_px));
 }
-
-// Nothing for a rival that is much worse; for one that is as good, most of the way to it: over
-// rendered scenes the rival is then the border almost every other time.
-double RivalSigma(const ChosenTransition& chosen) {
-  constexpr double kNoRival = 0.45, kShare = 0.6;
-  const double doubt = std::max(chosen.ambiguity - kNoRival, 0.0) / (1 - kNoRival);
-  return doubt * kShare * std::abs(chosen.rival_px);
-}
-
-}  // namespace
 
 double CommonSigma(const EdgeFit& fit,
                    const ToneCurve& tone,

@@ -16,4 +16,8 @@ namespace bladecurve {
                                  const ChosenTransition& chosen,
                                  bool blur_known);
 
+// Light that slopes beside the edge is continued to it as a straight line, or a parabola: a third
+// of what it changes within reach may be wrong, and moves the half-way level.
+[[nodiscard]] double SlopeSigma(const EdgeFit& fit);
+
 }  // namespace bladecurve

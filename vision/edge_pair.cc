@@ -78,11 +78,11 @@ bool HasDarkBand(const LocatedEdge& edge) {
   return edge.ambiguity > kAsGood && std::abs(edge.rival_px) >= kNarrowest;
 }
 
-// Vague although print bounds its blur, and no second line near: light that rises outwards so
-// slowly is a shadow's border.
+// Light that rises so slowly, going outwards, that the edge is vague although print bounds its
+// blur, and no second line near: a shadow's border.
 bool IsShadowsBorder(const LocatedEdge& edge, double most_blur_px) {
-  constexpr double kVague = 0.75;  // px
-  return std::isfinite(most_blur_px) && edge.common_sigma_px > kVague && !HasDarkBand(edge) &&
+  constexpr double kVague = 0.6;  // px
+  return std::isfinite(most_blur_px) && edge.slope_sigma_px > kVague && !HasDarkBand(edge) &&
          TypicalContrast(edge) > 0;
 }
 

@@ -63,33 +63,41 @@ std::optional<Relocated> WithEdge(const MirrorView& view,
   return found;
 }
 
+// What is seen where `other` puts `blade`, as far aside of it.
+std::optional<Relocated> LookWithin(double search_px,
+                                    const MirrorView& view,
+                                    const MirrorLine& line,
+                                    const Pivot& pivot,
+                                    const LocatedBlade& blade,
+                                    const LocatedBlade& other) {
+  const EdgeGuess guess = GuessWhereMirrored(line, pivot, blade, other, search_px);
+  try {
+    return WithEdge(
+        view, pivot, LocateBladeAlong(view.photo, view.scale, view.scene, guess), blade, other);
+  } catch (const Refused&) {
+    return std::nullopt;
+  }
+}
+
 // `blade` where `other` puts it, if it is seen there and the two are alike then.
 std::optional<Relocated> LookWhereMirrored(const MirrorView& view,
                                            const MirrorLine& line,
                                            const Pivot& pivot,
                                            const LocatedBlade& blade,
                                            const LocatedBlade& other) {
-  constexpr double kNearest = 5;  // px
-  std::optional<Relocated> found;
-  try {
-    const EdgeGuess guess = GuessWhereMirrored(line, pivot, blade, other, kNearest);
-    found = WithEdge(
-        view, pivot, LocateBladeAlong(view.photo, view.scale, view.scene, guess), blade, other);
-  } catch (const Refused&) {
+  constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
+  constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
+  const auto left = [&](const std::optional<Relocated>& found) {
+    return std::abs(found->asymmetry) / std::abs(pivot.asymmetry);
+  };
+  const bool suspect = AreSuspect(pivot.asymmetry);
+  std::optional<Relocated> found = LookWithin(kNearest, view, line, pivot, blade, other);
+  if (suspect && found && left(found) > kSame) {  // the line that is doubted
+    const double way_px = std::abs(pivot.asymmetry) * LengthPx(pivot, other);
+    found = LookWithin(kShortOf * way_px, view, line, pivot, blade, other);
   }
-  if (!found) return std::nullopt;
-  constexpr double kMuchLess = 0.5;  // of the difference before, where there is one
-  const bool better = !AreSuspect(pivot.asymmetry) ||
-                      std::abs(found->asymmetry) < kMuchLess * std::abs(pivot.asymmetry);
-  return better && AreAlike(found->asymmetry) ? found : std::nullopt;
-}
-
-constexpr double kClear = 0.5;  // ambiguity
-constexpr double kVague = 1;    // px of common uncertainty
-
-bool IsDoubtful(const LocatedEdge& edge) {
-  constexpr double kDoubt = 0.75;  // ambiguity
-  return edge.ambiguity > kDoubt || edge.common_sigma_px > kVague;
+  if (!found || (suspect && left(found) >= kMuchLess)) return std::nullopt;
+  return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
 
 void Replace(const Relocated& found, LocatedBlade* blade, Pivot* pivot) {
@@ -108,11 +116,11 @@ bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
 bool IsBetter(const std::optional<Relocated>& found,
               const LocatedBlade& blade,
               bool seen_alone_outside) {
-  constexpr double kClearAlone = 0.6;  // ambiguity
+  constexpr double kClearer = 0.5, kAlone = 0.6;  // ambiguity
   if (!found) return false;
   const LocatedEdge& edge = found->blade.edge;
-  if (seen_alone_outside && edge.ambiguity <= kClearAlone) return true;
-  return edge.ambiguity <= kClear &&
+  if (seen_alone_outside && edge.ambiguity <= kAlone) return true;
+  return edge.ambiguity <= kClearer &&
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
@@ -176,14 +184,6 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 }
 
 }  // namespace
-
-EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
-  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
-}
-
-bool IsClear(const LocatedEdge& edge) {
-  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVague;
-}
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!KnowsMirror(view, *pivot)) return;

@@ -14,6 +14,7 @@
 #include "vision/edge_relocation.h"
 #include "vision/end_pair.h"
 #include "vision/located_blade.h"
+#include "vision/mirror_line.h"
 #include "vision/opening.h"
 #include "vision/parallel.h"
 #include "vision/pivot.h"

@@ -6,6 +6,10 @@ namespace bladecurve {
 
 using Eigen::Vector2d;
 
+EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
+  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
+}
+
 Vector2d MirrorLine::At(double along, double aside) const {
   return map.ImageFromPlane(pivot + along * direction + aside * Across());
 }

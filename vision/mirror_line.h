@@ -7,11 +7,15 @@
 #include "vision/located_blade.h"
 #include "vision/photo.h"
 #include "vision/pivot.h"
+#include "vision/pivot_geometry.h"
 #include "vision/plane_map.h"
 #include "vision/scale.h"
 #include "vision/scene.h"
 
 namespace bladecurve {
+
+// The edges of two blades, of which one is the left one.
+[[nodiscard]] EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b);
 
 // The line about which the blades turn into each other, in the plane of the edges.
 struct MirrorLine {
