@@ -60,7 +60,8 @@ Samples TakeSamples(const cv::Mat& image, const cv::Mat& ignore) {
   return samples;
 }
 
-// 1.4826 x median absolute residual, over the samples that still count as background.
+// Standard deviation by the median absolute residual, over the samples that still count as
+// background.
 double RobustScatter(const Eigen::VectorXd& residuals, const Eigen::VectorXd& weights) {
   constexpr double kStillBackground = 0.05;
   std::vector<double> sizes;
@@ -69,7 +70,7 @@ double RobustScatter(const Eigen::VectorXd& residuals, const Eigen::VectorXd& we
     if (weights[i] > kStillBackground) sizes.push_back(std::abs(residuals[i]));
   }
   if (sizes.empty()) return kScatterFloor;
-  return 1.4826 * Median(std::move(sizes)) + kScatterFloor;
+  return kSigmaPerMedian * Median(std::move(sizes)) + kScatterFloor;
 }
 
 // What BackgroundModel holds, as its fit wants it.

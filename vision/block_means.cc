@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "vision/parallel.h"
@@ -20,33 +21,35 @@ void AddPixels(const uchar* pixels, std::size_t count, std::uint16_t* sums) {
   for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<std::uint16_t>(sums[i] + pixels[i]);
 }
 
-// share times the sum of each block of so many; a number the compiler knows is twice as fast.
-template <int kFactor>
-void ScaleBlocks(const std::uint16_t* sums, int count, float share, float* out) {
-  for (int i = 0; i < count; ++i, sums += kFactor)
-    out[i] = share * static_cast<float>(std::accumulate(sums, sums + kFactor, 0));
-}
-
-void ScaleBlocks(const std::uint16_t* sums, int factor, int count, float* out) {
+// The means of blocks whose columns are summed; a factor that the compiler knows, a constant's
+// type, is twice as fast.
+template <typename Factor>
+void MeansOfBlocks(const std::uint16_t* sums, Factor factor, int count, float* out) {
   const float share = 1.0F / static_cast<float>(factor * factor);
-  switch (factor) {  // the usual ones, of photographs of up to 7.5 thousand pixels
-    case 2:
-      return ScaleBlocks<2>(sums, count, share, out);
-    case 3:
-      return ScaleBlocks<3>(sums, count, share, out);
-    case 4:
-      return ScaleBlocks<4>(sums, count, share, out);
-    case 5:
-      return ScaleBlocks<5>(sums, count, share, out);
-    case 6:
-      return ScaleBlocks<6>(sums, count, share, out);
-    case 7:
-      return ScaleBlocks<7>(sums, count, share, out);
-    default:
-      break;
-  }
   for (int i = 0; i < count; ++i, sums += factor)
     out[i] = share * static_cast<float>(std::accumulate(sums, sums + factor, 0));
+}
+
+template <int kFactor>
+using Known = std::integral_constant<int, kFactor>;
+
+void MeansOfAllBlocks(const std::uint16_t* sums, int factor, int count, float* out) {
+  switch (factor) {  // the usual ones, of photographs of up to 7.5 thousand pixels
+    case 2:
+      return MeansOfBlocks(sums, Known<2>(), count, out);
+    case 3:
+      return MeansOfBlocks(sums, Known<3>(), count, out);
+    case 4:
+      return MeansOfBlocks(sums, Known<4>(), count, out);
+    case 5:
+      return MeansOfBlocks(sums, Known<5>(), count, out);
+    case 6:
+      return MeansOfBlocks(sums, Known<6>(), count, out);
+    case 7:
+      return MeansOfBlocks(sums, Known<7>(), count, out);
+    default:
+      return MeansOfBlocks(sums, factor, count, out);
+  }
 }
 
 // Rows [first, last) of the means.
@@ -56,7 +59,7 @@ void FillRows(const cv::Mat& grey, int factor, int first, int last, cv::Mat* mea
     std::fill(sums.begin(), sums.end(), std::uint16_t{0});
     for (int k = 0; k < factor; ++k)
       AddPixels(grey.ptr<uchar>(row * factor + k), sums.size(), sums.data());
-    ScaleBlocks(sums.data(), factor, means->cols, means->ptr<float>(row));
+    MeansOfAllBlocks(sums.data(), factor, means->cols, means->ptr<float>(row));
   }
 }
 

@@ -53,6 +53,11 @@ void RefuseJaws(const Pivot& pivot) {
 
 constexpr double kVaguePx = 1;  // common uncertainty
 
+// Seen from a known side, about a screw that is seen.
+bool AreFarUnlikeAboutScrew(const Pivot& pivot, const ScaleResult& scale) {
+  return scale.sheet && pivot.source == "screw" && AreFarUnlike(pivot.asymmetry);
+}
+
 }  // namespace
 
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
@@ -72,12 +77,12 @@ bool IsDoubtful(const LocatedEdge& edge) {
 }
 
 bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
-  return scale.sheet && pivot.source == "screw" && pivot.screw && IsFaint(*pivot.screw) &&
-         AreFarUnlike(pivot.asymmetry) && IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
+  return AreFarUnlikeAboutScrew(pivot, scale) && pivot.screw && IsFaint(*pivot.screw) &&
+         IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
 }
 
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
-  if (!scale.sheet || pivot.source != "screw" || !AreFarUnlike(pivot.asymmetry)) return;
+  if (!AreFarUnlikeAboutScrew(pivot, scale)) return;
   throw Refused(Reason::kLowContrast,
                 "edges: the two cutting edges are not each other's mirror images: they pass by the "
                 "pivot at distances that differ by " +

@@ -134,15 +134,6 @@ double TotalSigma(const LocatedEdge& edge) {
   return std::hypot(MedianOf(&LocatedEdgePoint::sigma_px, edge), edge.common_sigma_px);
 }
 
-template <typename Fit>
-std::optional<LocatedEdge> UnlessRefused(const Fit& fit) {
-  try {
-    return fit();
-  } catch (const Refused&) {
-    return std::nullopt;
-  }
-}
-
 EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
   Check(grey, guess, options);
   EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);

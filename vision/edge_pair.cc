@@ -126,13 +126,9 @@ class BladeLocator {
 
   // The edge along `guess` as the place where a shadow begins, if it is seen.
   [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess) const {
-    try {
-      LocatedEdge edge = LocateEdgeInShadow(photo_.grey(), tone_, guess, options_);
-      if (TypicalContrast(edge) < 0) return edge;
-    } catch (const Refused&) {
-      // nothing seen there
-    }
-    return std::nullopt;
+    std::optional<LocatedEdge> edge =
+        UnlessRefused([&] { return LocateEdgeInShadow(photo_.grey(), tone_, guess, options_); });
+    return edge && TypicalContrast(*edge) < 0 ? std::move(edge) : std::nullopt;
   }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
@@ -142,11 +138,8 @@ class BladeLocator {
   }
 
   [[nodiscard]] LocatedEdge LocateOrTrace(bool left) {
-    try {
-      return Locate(left);
-    } catch (const Refused&) {
-      return AsTraced(scene_, left ? scene_.left : scene_.right, left);
-    }
+    if (auto edge = UnlessRefused([&] { return Locate(left); })) return *std::move(edge);
+    return AsTraced(scene_, left ? scene_.left : scene_.right, left);
   }
 
   // What the other blade tells of an edge's blur: a glaring blade's once more, as sharp as the
@@ -202,11 +195,7 @@ class BladeLocator {
     EdgeGuess guess = GuessFor(scene_, left);
     guess.path_px = std::move(side_px);
     guess.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
-    try {
-      return LocateEdge(photo_.grey(), tone_, guess, options_);
-    } catch (const Refused&) {
-      return std::nullopt;
-    }
+    return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, guess, options_); });
   }
 
   // Of the two sides of a dark band, the inner one is the blade's border if the band has the

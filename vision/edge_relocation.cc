@@ -24,79 +24,70 @@ struct Relocated {
   double asymmetry = 0;
 };
 
-double LengthPx(const Pivot& pivot, const LocatedBlade& blade) {
-  return (blade.end.point_px - pivot.point_px).norm();
-}
+// The look for one blade where the other's mirror image lies.
+struct Mirroring {
+  const MirrorView& view;
+  const Pivot& pivot;
+  const LocatedBlade& other;  // whose mirror image it is
+  MirrorLine line;
 
-// Where `other` puts `blade`.
-EdgeGuess GuessWhereMirrored(const MirrorLine& line,
-                             const Pivot& pivot,
-                             const LocatedBlade& blade,
-                             const LocatedBlade& other,
-                             double nearest_px) {
-  constexpr double kOfWay = 0.35;  // that the edge would move
-  EdgeGuess guess;
-  for (const LocatedEdgePoint& p : other.edge.points) {
-    if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
+  // How far off it the blade was found.
+  [[nodiscard]] double WayPx() const {
+    return std::abs(pivot.asymmetry) * (other.end.point_px - pivot.point_px).norm();
   }
-  guess.blade_on_left = blade.on_left;
-  guess.search_px =
-      std::max(nearest_px, kOfWay * std::abs(pivot.asymmetry) * LengthPx(pivot, other));
-  return guess;
-}
 
-// The blade with that edge, if enough of it is free.
-std::optional<Relocated> WithEdge(const MirrorView& view,
-                                  const Pivot& pivot,
-                                  LocatedEdge edge,
-                                  const LocatedBlade& blade,
-                                  const LocatedBlade& other) {
-  Relocated found;
-  found.blade.on_left = blade.on_left;
-  found.blade.edge = std::move(edge);
-  try {
+  // search_px: at least so far aside, and further where the way is long.
+  [[nodiscard]] EdgeGuess GuessWithin(double search_px) const {
+    constexpr double kOfWay = 0.35;
+    EdgeGuess guess;
+    for (const LocatedEdgePoint& p : other.edge.points) {
+      if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
+    }
+    guess.blade_on_left = !other.on_left;
+    guess.search_px = std::max(search_px, kOfWay * WayPx());
+    return guess;
+  }
+
+  // Of the difference between the two, what is left.
+  [[nodiscard]] double LeftBy(const Relocated& found) const {
+    return std::abs(found.asymmetry) / std::abs(pivot.asymmetry);
+  }
+
+  // The blade with that edge. Throws Refused where too little of it is free.
+  [[nodiscard]] Relocated WithEdge(LocatedEdge edge) const {
+    Relocated found;
+    found.blade.on_left = !other.on_left;
+    found.blade.edge = std::move(edge);
     TrimToFree(view.photo, view.scene, &found.blade);
-  } catch (const Refused&) {
-    return std::nullopt;
+    found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
+    return found;
   }
-  found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
-  return found;
-}
 
-// What is seen where `other` puts `blade`, as far aside of it.
-std::optional<Relocated> LookWithin(double search_px,
-                                    const MirrorView& view,
-                                    const MirrorLine& line,
-                                    const Pivot& pivot,
-                                    const LocatedBlade& blade,
-                                    const LocatedBlade& other) {
-  const EdgeGuess guess = GuessWhereMirrored(line, pivot, blade, other, search_px);
-  try {
-    return WithEdge(
-        view, pivot, LocateBladeAlong(view.photo, view.scale, view.scene, guess), blade, other);
-  } catch (const Refused&) {
-    return std::nullopt;
+  // What is seen there.
+  [[nodiscard]] std::optional<Relocated> LookWithin(double search_px) const {
+    return UnlessRefused([&] {
+      return WithEdge(LocateBladeAlong(view.photo, view.scale, view.scene, GuessWithin(search_px)));
+    });
   }
-}
 
-// `blade` where `other` puts it, if it is seen there and the two are alike then.
-std::optional<Relocated> LookWhereMirrored(const MirrorView& view,
-                                           const MirrorLine& line,
-                                           const Pivot& pivot,
-                                           const LocatedBlade& blade,
-                                           const LocatedBlade& other) {
+  // The place where a shadow begins.
+  [[nodiscard]] std::optional<Relocated> LookInShadow(double search_px) const {
+    std::optional<LocatedEdge> edge =
+        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(search_px));
+    if (!edge) return std::nullopt;
+    return UnlessRefused([&] { return WithEdge(*std::move(edge)); });
+  }
+};
+
+// The blade where the other one puts it, if it is seen there and the two are alike then.
+std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
-  const auto left = [&](const std::optional<Relocated>& found) {
-    return std::abs(found->asymmetry) / std::abs(pivot.asymmetry);
-  };
-  const bool suspect = AreSuspect(pivot.asymmetry);
-  std::optional<Relocated> found = LookWithin(kNearest, view, line, pivot, blade, other);
-  if (suspect && found && left(found) > kSame) {  // the line that is doubted
-    const double way_px = std::abs(pivot.asymmetry) * LengthPx(pivot, other);
-    found = LookWithin(kShortOf * way_px, view, line, pivot, blade, other);
-  }
-  if (!found || (suspect && left(found) >= kMuchLess)) return std::nullopt;
+  const bool suspect = AreSuspect(mirroring.pivot.asymmetry);
+  std::optional<Relocated> found = mirroring.LookWithin(kNearest);
+  if (suspect && found && mirroring.LeftBy(*found) > kSame)  // the line that is doubted
+    found = mirroring.LookWithin(kShortOf * mirroring.WayPx());
+  if (!found || (suspect && mirroring.LeftBy(*found) >= kMuchLess)) return std::nullopt;
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
 
@@ -127,10 +118,8 @@ bool IsBetter(const std::optional<Relocated>& found,
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
 void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, *pivot, *blades);
-  const std::optional<Relocated> upper =
-      LookWhereMirrored(view, line, *pivot, blades->upper, blades->lower);
-  const std::optional<Relocated> lower =
-      LookWhereMirrored(view, line, *pivot, blades->lower, blades->upper);
+  const std::optional<Relocated> upper = LookWhereMirrored({view, *pivot, blades->lower, line});
+  const std::optional<Relocated> lower = LookWhereMirrored({view, *pivot, blades->upper, line});
   const bool upper_better =
       IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, *pivot));
   const bool lower_better =
@@ -155,15 +144,11 @@ bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const bool is_upper = !LiesInwards(blades->upper, *pivot);
   LocatedBlade& outer = is_upper ? blades->upper : blades->lower;
   const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
-  const double differs = std::abs(pivot->asymmetry);
-  if (differs < kLeastShare || differs * LengthPx(*pivot, other) < kLeastPx) return false;
-  const MirrorLine line = LineBetween(view, *pivot, *blades);
-  std::optional<LocatedEdge> edge = LocateBladeInShadow(
-      view.photo, view.scale, view.scene, GuessWhereMirrored(line, *pivot, outer, other, kNearest));
-  if (!edge) return false;
-  const std::optional<Relocated> found = WithEdge(view, *pivot, *std::move(edge), outer, other);
+  const Mirroring mirroring{view, *pivot, other, LineBetween(view, *pivot, *blades)};
+  if (std::abs(pivot->asymmetry) < kLeastShare || mirroring.WayPx() < kLeastPx) return false;
+  const std::optional<Relocated> found = mirroring.LookInShadow(kNearest);
   if (!found || found->blade.edge.ambiguity > kSeen) return false;
-  if (!AreAlike(found->asymmetry) || std::abs(found->asymmetry) > kLeft * differs) return false;
+  if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
   Replace(*found, &outer, pivot);
   return true;
 }
@@ -175,8 +160,8 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   LocatedBlade& doubtful = is_upper ? blades->upper : blades->lower;
   const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
-  const MirrorLine line = LineBetween(view, *pivot, *blades);
-  std::optional<Relocated> found = LookWhereMirrored(view, line, *pivot, doubtful, other);
+  const std::optional<Relocated> found =
+      LookWhereMirrored({view, *pivot, other, LineBetween(view, *pivot, *blades)});
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
   if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace bladecurve {
 
@@ -38,5 +40,16 @@ class Refused : public std::runtime_error {
  private:
   Reason reason_;
 };
+
+// make(), or nothing where that throws Refused.
+template <typename Make>
+[[nodiscard]] auto UnlessRefused(const Make& make)
+    -> std::optional<std::invoke_result_t<const Make&>> {
+  try {
+    return make();
+  } catch (const Refused&) {
+    return std::nullopt;
+  }
+}
 
 }  // namespace bladecurve

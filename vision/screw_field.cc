@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/block_means.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -18,8 +19,6 @@ constexpr float kHalfScore = 2.5F;  // a sector this many times its usual respon
 // Derivatives a flat 8-bit picture has by rounding alone: no rim fainter than that is believed.
 constexpr float kLeastEdge = 0.25F;
 constexpr float kLeastLine = 0.15F;
-constexpr float kNormalMad =
-    1.4826F;                   // standard deviation over median absolute deviation, normal law
 constexpr int kUsualGrid = 6;  // (2 n + 1)^2 places tell what is usual
 
 // Unit vectors of all samples, anticlockwise as x and y go.
@@ -65,7 +64,7 @@ float MedianOf(std::vector<float>& values) {
 
 // The weight 1/usual^2 of a sector's summed response.
 float WeightFrom(std::vector<float>& absolute_sums, float least) {
-  const float usual = kNormalMad * MedianOf(absolute_sums);
+  const float usual = static_cast<float>(kSigmaPerMedian) * MedianOf(absolute_sums);
   const float floor = 2 * least;
   return 1.F / std::max(usual * usual, floor * floor);
 }

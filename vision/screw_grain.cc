@@ -57,9 +57,9 @@ struct Leftover {
 
 // 1 where a value lies further from the median than all but one in 400 of a normal law.
 VectorXd FarOut(const VectorXd& values) {
-  constexpr double kSigmas = 3, kNormalMad = 1.4826;
+  constexpr double kSigmas = 3;
   const VectorXd off = (values.array() - MedianOf(values)).abs();
-  return (off.array() > kSigmas * kNormalMad * MedianOf(off) + kLeast).cast<double>();
+  return (off.array() > kSigmas * kSigmaPerMedian * MedianOf(off) + kLeast).cast<double>();
 }
 
 Leftover LeftoverOf(const RimProfiles& profiles, const RimRows& values, const RimMatches& matches) {

@@ -24,7 +24,6 @@ constexpr double kFewBlocks = 1.45;
 constexpr Index kBlocks = 24;             // of the rim, taken as independent in the covariance
 constexpr double kLeastSlopeShare = 0.3;  // a rim of outliers only: the scatter means nothing then
 constexpr int kReweightings = 4;
-constexpr double kNormalMad = 1.4826;  // standard deviation over median deviation, normal law
 // Weight of "no change", in profiles: keeps the equations solvable where hardly any rim is seen.
 const Vector5d kDamping(1e-6, 1e-6, 1e-2, 1e-2, 1e-2);
 
@@ -147,7 +146,7 @@ RimUpdate FitShifts(const RimProfiles& profiles,
     update.change = equations.normal.ldlt().solve(equations.right);
     update.residual_px = shifts.px - jacobian * update.change;
     const double spread = MedianAbsoluteOf(update.residual_px.array() * shifts.evening);
-    scatter_px = std::clamp(kNormalMad * spread, kLeastScatterPx, scatter_px);
+    scatter_px = std::clamp(kSigmaPerMedian * spread, kLeastScatterPx, scatter_px);
   }
   z = update.residual_px.array() * shifts.evening / (options.outlier_sigmas * scatter_px);
   const double slopes = (shifts.prior * BiweightSlope(z)).sum();

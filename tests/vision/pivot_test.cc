@@ -9,7 +9,6 @@
 
 #include "measured_blades.h"
 #include "vision/consistency.h"
-#include "vision/edge_relocation.h"
 
 namespace bladecurve {
 namespace {
