@@ -135,6 +135,18 @@ ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double 
   return search;
 }
 
+// The same for heads wider than usual: a waist that was measured across one shank alone is no wider
+// than the head.
+ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kWidest = 0.6;  // of the members, a head's radius
+  ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
+  const double members_px =
+      std::max({scene.shank_width_px, scene.left.width_px, scene.right.width_px});
+  search.min_semi_axis_px = 0.8 * search.max_semi_axis_px;
+  search.max_semi_axis_px = std::max(search.max_semi_axis_px, kWidest * members_px);
+  return search;
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
@@ -169,7 +181,14 @@ std::optional<Screw> LookAllAbout(const cv::Mat& grey,
   const auto asymmetry = [&](const Screw& screw) {
     return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
   };
-  if (!seen) return FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
+  if (!seen) {
+    constexpr double kUnmistakable = 25;  // necks of members are round, too, but less so
+    const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
+    if (usual) return usual;
+    const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, known.scene));
+    const bool sure = wide && (wide->evidence > kUnmistakable || !AreSuspect(asymmetry(*wide)));
+    return sure ? wide : std::nullopt;
+  }
   if (!IsFaint(*seen) || !AreFarUnlike(asymmetry(*seen))) return seen;
   const std::optional<Screw> other =
       FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kBeyondDoubt));

@@ -40,6 +40,18 @@ TEST(FindPivot, SeesTheScrewWhereverTheOverlapSeemsToBe) {
   }
 }
 
+TEST(FindPivot, SeesAHeadAsWideAsTheWaistSeems) {
+  constexpr double kClosePx = 1.5;
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  Scene scene = measured.scene;
+  scene.shank_width_px = 18;  // across one shank alone; the head is 21 px wide
+  ASSERT_FALSE(LookAtJoint(measured.photo.grey(), measured.scale, scene));
+  const Pivot pivot = FindPivot(measured.photo.grey(), measured.scale, {scene, edges, std::nullopt, std::nullopt});
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+}
+
 // A rim seen where none is, aside of the line about which the blades mirror each other.
 Screw HeadAside(const Measured& measured, double evidence) {
   constexpr double kAsidePx = 20, kRadiusPx = 10;
