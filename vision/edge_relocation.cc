@@ -10,6 +10,7 @@
 
 #include "vision/consistency.h"
 #include "vision/edge_pair.h"
+#include "vision/mirrored_trace.h"
 #include "vision/pivot_geometry.h"
 #include "vision/refused.h"
 
@@ -36,15 +37,19 @@ struct Mirroring {
     return std::abs(pivot.asymmetry) * (other.end.point_px - pivot.point_px).norm();
   }
 
-  // search_px: at least so far aside, and further where the way is long.
-  [[nodiscard]] EdgeGuess GuessWithin(double search_px) const {
+  // search_px, or further where the way is long.
+  [[nodiscard]] double SearchPx(double search_px) const {
     constexpr double kOfWay = 0.35;
+    return std::max(search_px, kOfWay * WayPx());
+  }
+
+  [[nodiscard]] EdgeGuess GuessWithin(double search_px) const {
     EdgeGuess guess;
     for (const LocatedEdgePoint& p : other.edge.points) {
       if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
     }
     guess.blade_on_left = !other.on_left;
-    guess.search_px = std::max(search_px, kOfWay * WayPx());
+    guess.search_px = search_px;
     return guess;
   }
 
@@ -73,7 +78,7 @@ struct Mirroring {
   // The place where a shadow begins.
   [[nodiscard]] std::optional<Relocated> LookInShadow(double search_px) const {
     std::optional<LocatedEdge> edge =
-        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(search_px));
+        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(SearchPx(search_px)));
     if (!edge) return std::nullopt;
     return UnlessRefused([&] { return WithEdge(*std::move(edge)); });
   }
@@ -84,9 +89,9 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
   const bool suspect = AreSuspect(mirroring.pivot.asymmetry);
-  std::optional<Relocated> found = mirroring.LookWithin(kNearest);
+  std::optional<Relocated> found = mirroring.LookWithin(mirroring.SearchPx(kNearest));
   if (suspect && found && mirroring.LeftBy(*found) > kSame)  // the line that is doubted
-    found = mirroring.LookWithin(kShortOf * mirroring.WayPx());
+    found = mirroring.LookWithin(mirroring.SearchPx(kShortOf * mirroring.WayPx()));
   if (!found || (suspect && mirroring.LeftBy(*found) >= kMuchLess)) return std::nullopt;
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
@@ -115,6 +120,40 @@ bool IsBetter(const std::optional<Relocated>& found,
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
+// The other blade's edge, mirrored, for want of a better one: as good as that and the trace are,
+// and marked as doubtful.
+LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace) {
+  constexpr double kDoubtful = 0.6;  // ambiguity
+  LocatedEdge edge = other.edge;
+  for (LocatedEdgePoint& p : edge.points) {
+    const Vector2d outside_px = trace.line.Reflected(p.trend_px + p.normal);
+    p.point_px = trace.line.Reflected(p.point_px);
+    p.trend_px = trace.line.Reflected(p.trend_px);
+    p.normal = (outside_px - p.trend_px).normalized();
+  }
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px);
+  edge.ambiguity = kDoubtful;
+  edge.rival_px = 0;
+  edge.rival_path_px.clear();
+  return edge;
+}
+
+// Of edges that do not mirror each other, neither being seen where the other puts it, the inner one
+// from where the other's mirror image as a whole is seen, too faintly to be located by itself.
+// About a head that may be none, the edges say nothing of each other.
+void TraceInnerOne(const MirrorView& view, const MirrorLine& line, Pivot* pivot, Blades* blades) {
+  if (pivot->screw && IsFaint(*pivot->screw)) return;
+  const bool is_upper = LiesInwards(blades->upper, *pivot);
+  LocatedBlade& inner = is_upper ? blades->upper : blades->lower;
+  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
+  const double way_px = Mirroring{view, *pivot, other, line}.WayPx();
+  const auto trace = FindMirroredTrace(view, inner, other, line, way_px);
+  if (!trace) return;
+  const Mirroring mirroring{view, *pivot, other, trace->line};
+  const auto found = UnlessRefused([&] { return mirroring.WithEdge(Borrowed(other, *trace)); });
+  if (found) Replace(*found, &inner, pivot);
+}
+
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
 void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, *pivot, *blades);
@@ -124,7 +163,11 @@ void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
       IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, *pivot));
   const bool lower_better =
       IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, *pivot));
-  if (upper_better == lower_better) return;  // either, or neither
+  if (!upper_better && !lower_better) {
+    TraceInnerOne(view, line, pivot, blades);
+    return;
+  }
+  if (upper_better == lower_better) return;
   if (upper_better) {
     Replace(*upper, &blades->upper, pivot);
   } else {

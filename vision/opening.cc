@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "vision/consistency.h"
+
 namespace bladecurve {
 
 using Eigen::Matrix2d;
@@ -40,7 +42,13 @@ Opening MeasureOpening(const PlaneMap& map,
   add(EndCovariance(lower), [&](const Vector2d& d) {
     return angle(pivot.point_px, upper.end.point_px, lower.end.point_px + d);
   });
-  opening.sigma_rad = std::sqrt(variance);
+  // Blades that are no mirror images about the pivot: one of the edges is something else's border,
+  // or the view is oblique. Either may turn the angle by as much as they differ.
+  constexpr double kOfDifference = 0.3;
+  const double doubt = pivot.source != "geometry" && AreUnlike(pivot.asymmetry)
+                           ? kOfDifference * pivot.asymmetry
+                           : 0;
+  opening.sigma_rad = std::hypot(std::sqrt(variance), doubt);
   return opening;
 }
 

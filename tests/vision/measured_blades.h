@@ -52,8 +52,11 @@ inline SceneSpec SceneWithShadow(double elevation_rad, double direction_rad, dou
 
 // A rendered photograph up to where the edges are compared.
 struct Measured {
-  explicit Measured(const SceneSpec& spec)
-      : truth(TruthOf(spec)), photo(PhotoOf(spec)), scale(FindScale(photo, ScaleOf(spec))) {
+  explicit Measured(const SceneSpec& spec) : Measured(spec, RenderScene(spec).bgr) {}
+
+  // A picture of the scene that was retouched.
+  Measured(const SceneSpec& spec, const cv::Mat& picture)
+      : truth(TruthOf(spec)), photo(PhotoOf(picture)), scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = FindScene(photo, scale.markers, {}, &log);
     BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
@@ -99,9 +102,9 @@ struct Measured {
 
   [[nodiscard]] MirrorView View() const { return {photo, scale, scene}; }
 
-  static Photo PhotoOf(const SceneSpec& spec) {
+  static Photo PhotoOf(const cv::Mat& picture) {
     const std::filesystem::path file = ProcessFolder() / "picture.png";
-    WritePng(file, RenderScene(spec).bgr);
+    WritePng(file, picture);
     return Photo::Load(file);
   }
   static ScaleOptions ScaleOf(const SceneSpec& spec) {

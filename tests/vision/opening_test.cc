@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/opening.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace bladecurve {
+namespace {
+
+// An edge from (100, y) to (600, y), y down, that ends at its last point.
+LocatedBlade StraightBlade(double y_px) {
+  LocatedBlade blade;
+  for (int x = 100; x <= 600; ++x) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = {x, y_px};
+    point.normal = {0, y_px > 0 ? -1 : 1};
+    point.sigma_px = 0.1;
+    blade.used.push_back(point);
+  }
+  blade.edge.points = blade.used;
+  blade.end.point_px = blade.used.back().point_px;
+  blade.end.along_sigma_px = 0.5;
+  return blade;
+}
+
+Opening OpeningOf(double asymmetry) {
+  Pivot pivot;
+  pivot.source = "screw";
+  pivot.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
+  pivot.asymmetry = asymmetry;
+  return MeasureOpening(
+      PlaneMap::Uniform(1, 0, "px"), pivot, StraightBlade(-60), StraightBlade(60));
+}
+
+TEST(MeasureOpening, DoubtsTheAngleOfEdgesThatAreNoMirrorImages) {
+  constexpr double kAsymmetry = 0.05;  // of the length: one edge may be turned by 0.05 rad
+  const Opening alike = OpeningOf(0.005), unlike = OpeningOf(-kAsymmetry);
+  EXPECT_DOUBLE_EQ(alike.theta_rad, 2 * std::atan(0.1));
+  EXPECT_DOUBLE_EQ(unlike.theta_rad, alike.theta_rad);
+  EXPECT_LT(alike.sigma_rad, 0.001);
+  EXPECT_GT(unlike.sigma_rad, 0.25 * kAsymmetry);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,213 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/mirrored_trace.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "vision/bilinear.h"
+#include "vision/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+constexpr int kParts = 10;      // of the trace, each with a break in the light of its own
+constexpr double kTapPx = 0.5;  // across the trace
+constexpr int kHalfTaps = 10;
+constexpr int kTaps = 2 * kHalfTaps + 1;
+constexpr double kStepPx = 0.5;  // of the trace's end, from one direction of the mirror to the next
+
+// Where the other edge's mirror image lies, and its normals.
+struct Trace {
+  std::vector<Vector2d> points, normals;
+};
+
+Trace MirroredEdge(const LocatedBlade& other, const MirrorLine& line) {
+  constexpr std::ptrdiff_t kAside = 5;  // points between which the direction is taken
+  Trace trace;
+  for (const LocatedEdgePoint& p : other.used) trace.points.push_back(line.Reflected(p.trend_px));
+  const auto last = static_cast<std::ptrdiff_t>(trace.points.size()) - 1;
+  for (std::ptrdiff_t i = 0; i <= last; ++i) {
+    const auto at = [&](std::ptrdiff_t k) {
+      return trace.points[static_cast<std::size_t>(std::clamp(k, std::ptrdiff_t{0}, last))];
+    };
+    const Vector2d along = at(i + kAside) - at(i - kAside);
+    trace.normals.emplace_back(Vector2d(along.y(), -along.x()).normalized());
+  }
+  return trace;
+}
+
+// A run of points of a trace.
+struct Part {
+  std::size_t first = 0, end = 0;
+};
+
+// Clear of the crotch and of the tip.
+Part PartOf(std::size_t points, int index) {
+  const auto place = [&](double part) {
+    return static_cast<std::size_t>(static_cast<double>(points) * part / (kParts + 1));
+  };
+  return {place(index + 0.5), place(index + 1.5)};
+}
+
+// How far outwards of an edge a place lies.
+double OutsideBy(const LocatedBlade& blade, const Vector2d& place) {
+  const auto nearest =
+      std::min_element(blade.used.begin(), blade.used.end(), [&](const auto& a, const auto& b) {
+        return (a.point_px - place).squaredNorm() < (b.point_px - place).squaredNorm();
+      });
+  return (place - nearest->point_px).dot(nearest->normal);
+}
+
+// Tells a step in the light across a line from light that bends smoothly there, be the light beside
+// it straight or bent.
+class StepTest {
+ public:
+  explicit StepTest(double blur_px) {
+    Eigen::MatrixX4d powers(kTaps, 4);
+    VectorXd step(kTaps);
+    for (int k = 0; k < kTaps; ++k) {
+      const double t = (k - kHalfTaps) * kTapPx;
+      powers.row(k) << 1, t, t * t, t * t * t;
+      step[k] = 0.5 * std::erfc(-t / (blur_px * std::numbers::sqrt2));
+    }
+    for (int bends : {0, 1}) {
+      MatrixXd stepped(kTaps, bends + 3);
+      stepped << powers.leftCols(bends + 2), step;
+      rivals_.push_back({Without(stepped), Without(powers.leftCols(bends + 3))});
+    }
+  }
+
+  // ln of the odds for the step.
+  [[nodiscard]] double LogOdds(const VectorXd& light) const {
+    constexpr double kIndependent = 8;  // taps, neighbours being alike by the blur
+    constexpr double kLeastSquares = 1e-7;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const Rivals& rivals : rivals_) {
+      const double stepped = (rivals.without_stepped * light).squaredNorm() + kLeastSquares;
+      const double smooth = (rivals.without_smooth * light).squaredNorm() + kLeastSquares;
+      most = std::max(most, 0.5 * kIndependent * std::log(smooth / stepped));
+    }
+    return most;
+  }
+
+ private:
+  // What two bases of as many functions leave of a profile.
+  struct Rivals {
+    MatrixXd without_stepped, without_smooth;
+  };
+  static MatrixXd Without(const MatrixXd& basis) {
+    return MatrixXd::Identity(kTaps, kTaps) -
+           basis * (basis.transpose() * basis).inverse() * basis.transpose();
+  }
+  std::vector<Rivals> rivals_;
+};
+
+// Linear light across part of a trace, median along it.
+VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& part) {
+  const std::array<float, 256>& linear = view.scale.tone.linear;
+  VectorXd profile(kTaps);
+  std::vector<double> along;
+  for (int k = 0; k < kTaps; ++k) {
+    along.clear();
+    for (std::size_t i = part.first; i < part.end; ++i) {
+      const Vector2d at = trace.points[i] + (k - kHalfTaps) * kTapPx * trace.normals[i];
+      along.push_back(
+          Bilinear<uchar>(view.photo.grey(), at, [&](uchar grey) { return linear[grey]; }));
+    }
+    profile[k] = Median(along);
+  }
+  return profile;
+}
+
+// What speaks for a trace as a whole.
+struct Support {
+  double log_odds = 0;
+  int parts = 0;  // that speak for it
+};
+
+Support SupportOf(const MirrorView& view,
+                  const Trace& trace,
+                  const LocatedBlade& inner,
+                  const StepTest& test) {
+  // Nearer to the line that was found, that line would be seen again; and no part decides alone.
+  constexpr double kClearOfInner = 3.5, kLeast = -1, kMost = 8, kSpeaks = 1;
+  Support support;
+  for (int index = 0; index < kParts; ++index) {
+    const Part part = PartOf(trace.points.size(), index);
+    if (OutsideBy(inner, trace.points[(part.first + part.end) / 2]) < kClearOfInner) continue;
+    const double log_odds = test.LogOdds(ProfileAcross(view, trace, part));
+    support.log_odds += std::clamp(log_odds, kLeast, kMost);
+    if (log_odds > kSpeaks) ++support.parts;
+  }
+  return support;
+}
+
+// Mean and spread of what rises above half of the best support, in steps.
+struct Peak {
+  double place = 0, sigma = 0;
+};
+
+Peak PeakAbout(const std::vector<Support>& supports, std::ptrdiff_t best) {
+  constexpr std::ptrdiff_t kReach = 4;
+  const double half = 0.5 * supports[static_cast<std::size_t>(best)].log_odds;
+  const auto count = static_cast<std::ptrdiff_t>(supports.size());
+  double sum = 0, moment = 0, squares = 0;
+  for (auto i = std::max(best - kReach, std::ptrdiff_t{0}); i < std::min(best + kReach + 1, count);
+       ++i) {
+    const double weight = std::max(0.0, supports[static_cast<std::size_t>(i)].log_odds - half);
+    const auto place = static_cast<double>(i);
+    sum += weight;
+    moment += weight * place;
+    squares += weight * place * place;
+  }
+  const double mean = moment / sum;
+  return {mean, std::sqrt(std::max(1.0, squares / sum - mean * mean))};
+}
+
+}  // namespace
+
+std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
+                                               const LocatedBlade& inner,
+                                               const LocatedBlade& other,
+                                               const MirrorLine& line,
+                                               double difference_px) {
+  constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
+  constexpr double kApartPx = 4;                       // nearer, it is the same border
+  constexpr double kLeastOdds = 8, kClearly = 2;       // times the next best
+  constexpr int kLeastParts = 4;
+  constexpr double kUsualBlurPx = 0.8;
+  const double blur_px = std::isfinite(other.edge.blur_px) ? other.edge.blur_px : kUsualBlurPx;
+  const StepTest test(std::hypot(blur_px, 0.3));  // and the pixel's box
+  const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();
+  const auto farthest = static_cast<int>((kOfDifference * difference_px + kNearestPx) / kStepPx);
+  const auto turned = [&](double step) {
+    const double half_rad = 0.5 * step * kStepPx / reach_px;
+    return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
+  };
+  std::vector<Support> supports;
+  for (int step = -farthest; step <= farthest; ++step)
+    supports.push_back(SupportOf(view, MirroredEdge(other, turned(step)), inner, test));
+  const auto best = std::max_element(
+      supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
+  double next = 0;
+  for (auto it = supports.begin(); it != supports.end(); ++it) {
+    if (std::abs(it - best) * kStepPx >= kApartPx) next = std::max(next, it->log_odds);
+  }
+  if (best->log_odds < kLeastOdds || best->log_odds < kClearly * next || best->parts < kLeastParts)
+    return std::nullopt;
+  const Peak peak = PeakAbout(supports, best - supports.begin());
+  // Halfway along the blade the trace moves half as far as its end.
+  return MirroredTrace{turned(peak.place - farthest), 0.5 * kStepPx * peak.sigma};
+}
+
+}  // namespace bladecurve
