@@ -32,6 +32,15 @@ bool Better(const Candidate& a, const Candidate& b) {
   return a_usable != b_usable ? a_usable : Merit(a) > Merit(b);
 }
 
+constexpr double kSurelyScissors = 0.8;  // quality
+
+// A pair that is small, or partly out of the picture, but shows in many masks: no shank does.
+bool IsOftenSeen(const Candidate& c) {
+  constexpr double kLikely = 0.3;
+  constexpr int kMasks = 6;
+  return c.pair.quality > kLikely && c.agreeing >= kMasks;
+}
+
 LadderResult Choose(const std::vector<Candidate>& candidates) {
   LadderResult result;
   const Candidate* best = nullptr;
@@ -45,12 +54,11 @@ LadderResult Choose(const std::vector<Candidate>& candidates) {
     if (as_good && c.strength > strongest->strength) strongest = &c;
     const double apart =
         (c.at->FullFromSmall(c.pair.pivot) - best->at->FullFromSmall(best->pair.pivot)).norm();
-    constexpr double kSurelyScissors = 0.8;
-    if (c.pair.quality > kSurelyScissors && best->pair.quality > kSurelyScissors &&
-        c.agreeing >= 2 && c.method == best->method &&
-        apart > SizeOf(best->pair) * best->at->full_px_per_px()) {
+    const bool elsewhere = apart > SizeOf(best->pair) * best->at->full_px_per_px();
+    const bool seen_alike =
+        c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best->method;
+    if (best->pair.quality > kSurelyScissors && elsewhere && (seen_alike || IsOftenSeen(c)))
       result.several = true;
-    }
   }
   result.best = *strongest;
   return result;
