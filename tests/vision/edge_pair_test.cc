@@ -41,7 +41,7 @@ TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
   constexpr double kClosePx = 0.3;
   for (const double elevation_rad : {45 * kDegree, 35 * kDegree}) {
     const SceneSpec spec = SceneWithShadowsInTheGap(elevation_rad);
-    const Photo photo = Measured::PhotoOf(spec);
+    const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
     ScaleOptions options;
     options.mm_per_px = spec.camera.mm_per_px;
     const ScaleResult scale = FindScale(photo, options);

@@ -52,11 +52,10 @@ inline SceneSpec SceneWithShadow(double elevation_rad, double direction_rad, dou
 
 // A rendered photograph up to where the edges are compared.
 struct Measured {
-  explicit Measured(const SceneSpec& spec) : Measured(spec, RenderScene(spec).bgr) {}
-
-  // A picture of the scene that was retouched.
-  Measured(const SceneSpec& spec, const cv::Mat& picture)
-      : truth(TruthOf(spec)), photo(PhotoOf(picture)), scale(FindScale(photo, ScaleOf(spec))) {
+  explicit Measured(const SceneSpec& spec)
+      : truth(TruthOf(spec)),
+        photo(PhotoOf(RenderScene(spec).bgr)),
+        scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = FindScene(photo, scale.markers, {}, &log);
     BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
