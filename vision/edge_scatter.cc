@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kMostBlur = 5;  // px; beyond, the position is a matter of taste
 
+constexpr double kTrendPx = 60;  // what bends over less is scatter
+
 size_t Index(int i) { return static_cast<size_t>(i); }
 
 // Neighbouring slices combined by their information.
@@ -47,16 +49,17 @@ std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point)
 }
 
 // The trend of all inlying points, and how far each lies off it, in its own sigmas.
-std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points, double spacing_px) {
-  constexpr double kLength = 60;  // px; what bends over less is scatter
+std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points,
+                            double spacing_px,
+                            double length_px = kTrendPx) {
   std::vector<double> x, y, weights;
   for (const LocatedEdgePoint& point : points) {
     x.push_back(point.point_px.x());
     y.push_back(point.point_px.y());
     weights.push_back(point.inlier ? 1 / (point.sigma_px * point.sigma_px) : 0.0);
   }
-  const double stiffness =
-      std::max(Median(weights), 1e-6) * std::pow(kLength / spacing_px / (2 * std::numbers::pi), 4);
+  const double stiffness = std::max(Median(weights), 1e-6) *
+                           std::pow(length_px / spacing_px / (2 * std::numbers::pi), 4);
   x = SmoothValues(x, weights, stiffness);
   y = SmoothValues(y, weights, stiffness);
   std::vector<double> scatter;
@@ -100,6 +103,21 @@ double PointsPerIndependentOne(const std::vector<double>& normalized) {
   return sum;
 }
 
+// Where points scatter more than usual, more of them tell where the edge runs.
+void SmoothNoisyTrend(double spacing_px, std::vector<LocatedEdgePoint>* points) {
+  constexpr double kUsual = 0.3;       // px, of a point
+  constexpr double kMostOfEdge = 0.5;  // blades bend over no less
+  std::vector<double> sigmas;
+  for (const LocatedEdgePoint& point : *points) {
+    if (point.inlier) sigmas.push_back(point.sigma_px);
+  }
+  if (sigmas.empty()) return;
+  const double edge_px = spacing_px * static_cast<double>(points->size());
+  const double length_px =
+      std::min(kMostOfEdge * edge_px, kTrendPx * Median(std::move(sigmas)) / kUsual);
+  if (length_px > kTrendPx) (void)Detrend(*points, spacing_px, length_px);
+}
+
 }  // namespace
 
 LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
@@ -130,6 +148,7 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
     edge.points[i].sigma_px *= excess;
     if (edge.points[i].inlier) inlying.push_back(scatter[i]);
   }
+  SmoothNoisyTrend(spacing_px, &edge.points);
   edge.correlation_px = PointsPerIndependentOne(inlying) * spacing_px;
   edge.blur_px = fit.blur_px;
   edge.noise =
