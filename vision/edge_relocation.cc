@@ -19,6 +19,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kAssumedAmbiguity = 0.6;  // of an edge that is as symmetry has it: it is doubted
+
 // A blade located anew.
 struct Relocated {
   LocatedBlade blade;
@@ -123,7 +125,6 @@ bool IsBetter(const std::optional<Relocated>& found,
 // The other blade's edge, mirrored, for want of a better one: as good as that and the trace are,
 // and marked as doubtful.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace) {
-  constexpr double kDoubtful = 0.6;  // ambiguity
   LocatedEdge edge = other.edge;
   for (LocatedEdgePoint& p : edge.points) {
     const Vector2d outside_px = trace.line.Reflected(p.trend_px + p.normal);
@@ -132,7 +133,7 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace) {
     p.normal = (outside_px - p.trend_px).normalized();
   }
   edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px);
-  edge.ambiguity = kDoubtful;
+  edge.ambiguity = kAssumedAmbiguity;
   edge.rival_px = 0;
   edge.rival_path_px.clear();
   return edge;
@@ -193,6 +194,8 @@ bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!found || found->blade.edge.ambiguity > kSeen) return false;
   if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
   Replace(*found, &outer, pivot);
+  if (!KnowsMirror(view, *pivot))
+    outer.edge.ambiguity = std::max(outer.edge.ambiguity, kAssumedAmbiguity);
   return true;
 }
 
@@ -214,7 +217,12 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 }  // namespace
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
-  if (!KnowsMirror(view, *pivot)) return;
+  if (!KnowsMirror(view, *pivot)) {
+    // A slanted view may part them as well; but then no fall of light lies where they would agree.
+    const bool is_seen = view.scale.map && pivot->source != "geometry";
+    if (is_seen && AreFarUnlike(pivot->asymmetry)) RelocateShadowedOne(view, pivot, blades);
+    return;
+  }
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot->asymmetry)) {
     RelocateClearerOne(view, pivot, blades);

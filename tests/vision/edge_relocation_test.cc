@@ -105,6 +105,18 @@ TEST(RelocateUnlikeEdges, LeavesEdgesThatMirrorEachOther) {
   EXPECT_EQ(PointsOf(measured.blades.upper), before);
 }
 
+// That a place where light falls makes the edges alike is no chance even in a view of unknown tilt,
+// but it is said.
+TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAWideShadowWithoutMarkers) {
+  constexpr double kShadowPx = 5, kClosePx = 0.3, kHardMm = 0.2, kWarned = 0.5;
+  Measured measured{SceneWithShadow(42 * kDegree, 270 * kDegree, kHardMm)};
+  measured.scale.sheet.reset();
+  ASSERT_GT(FarFrom(measured.truth.lower, measured.blades.lower.used), kShadowPx);
+  Relocate(&measured);
+  EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx);
+  EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
+}
+
 // Without markers nobody knows from where the scissors are seen.
 TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   Measured measured{SceneWithMarkers()};
