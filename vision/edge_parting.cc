@@ -260,7 +260,8 @@ class Comparison {
 }  // namespace
 
 void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  if (!KnowsMirror(view, pivot) || AreUnlike(pivot.asymmetry)) return;
+  const bool seem_alike = AssumesMirror(view, pivot) && AreAlike(pivot.asymmetry);
+  if (AreUnlike(pivot.asymmetry) || !(KnowsMirror(view, pivot) || seem_alike)) return;
   const Blades before = *blades;
   Comparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();

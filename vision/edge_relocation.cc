@@ -219,8 +219,8 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!KnowsMirror(view, *pivot)) {
     // A slanted view may part them as well; but then no fall of light lies where they would agree.
-    const bool is_seen = view.scale.map && pivot->source != "geometry";
-    if (is_seen && AreFarUnlike(pivot->asymmetry)) RelocateShadowedOne(view, pivot, blades);
+    if (AssumesMirror(view, *pivot) && AreFarUnlike(pivot->asymmetry))
+      RelocateShadowedOne(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;

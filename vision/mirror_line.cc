@@ -23,6 +23,10 @@ bool KnowsMirror(const MirrorView& view, const Pivot& pivot) {
   return view.scale.sheet && pivot.source != "geometry";
 }
 
+bool AssumesMirror(const MirrorView& view, const Pivot& pivot) {
+  return view.scale.map && pivot.source != "geometry";
+}
+
 MirrorLine LineBetween(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
   const PlaneMap& map = *view.scale.map;
   const auto direction = [&](const LocatedBlade& blade) {

@@ -39,6 +39,10 @@ struct MirrorView {
 // the view, and the pivot lies not just where the edges do so.
 [[nodiscard]] bool KnowsMirror(const MirrorView& view, const Pivot& pivot);
 
+// Whether there is a pivot about which edges may be compared although nobody knows the view's tilt:
+// edges that agree then tell much, edges that do not tell little.
+[[nodiscard]] bool AssumesMirror(const MirrorView& view, const Pivot& pivot);
+
 // Through the pivot, halfway between the edges' directions: an edge that lies aside of its place
 // runs much as it should. Where the mirror is known.
 [[nodiscard]] MirrorLine LineBetween(const MirrorView& view,

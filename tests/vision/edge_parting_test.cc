@@ -84,6 +84,31 @@ TEST(CutWhereEdgesPart, CutsTheEndThatComesBackAtTheTip) {
   for (const bool upper : {true, false}) ExpectTheEndIsCut(upper, true, Course::kAndBack);
 }
 
+// As if only a scale had been given, and nothing of the view.
+void ForgetView(Measured* measured) {
+  measured->scale.sheet.reset();
+  measured->scale.map = PlaneMap::Uniform(0.25, 0, "px");
+}
+
+TEST(CutWhereEdgesPart, CutsTheEndInAViewOfUnknownTiltWhereTheEdgesSeemAlike) {
+  constexpr double kClosePx = 1.2;
+  Measured measured{SceneWithMarkers()};
+  LeadAstray(&measured, &measured.blades.upper, true);
+  ForgetView(&measured);
+  CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+  EXPECT_LT(FarthestFrom(measured.truth.upper, measured.blades.upper), kClosePx);
+}
+
+TEST(CutWhereEdgesPart, LeavesEdgesOfASlantedView) {
+  Measured measured{SceneWithMarkers()};
+  ForgetView(&measured);
+  const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
+  const std::vector<Vector2d> lower = PointsOf(measured.blades.lower);
+  CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+  EXPECT_EQ(PointsOf(measured.blades.upper), upper);
+  EXPECT_EQ(PointsOf(measured.blades.lower), lower);
+}
+
 TEST(CutWhereEdgesPart, LeavesEdgesThatMirrorEachOther) {
   Measured measured{SceneWithMarkers()};
   const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
