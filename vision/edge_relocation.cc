@@ -218,9 +218,10 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!KnowsMirror(view, *pivot)) {
-    // A slanted view may part them as well; but then no fall of light lies where they would agree.
-    if (AssumesMirror(view, *pivot) && AreFarUnlike(pivot->asymmetry))
-      RelocateShadowedOne(view, pivot, blades);
+    // A slanted view may part them as well; but then nothing is seen where they would agree.
+    if (!AssumesMirror(view, *pivot) || !AreFarUnlike(pivot->asymmetry)) return;
+    if (!RelocateShadowedOne(view, pivot, blades))
+      TraceInnerOne(view, LineBetween(view, *pivot, *blades), pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;

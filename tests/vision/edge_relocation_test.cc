@@ -117,6 +117,18 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAWideShadowWithoutMarkers) {
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
+TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMarkers) {
+  constexpr double kClosePx = 0.5, kWarned = 0.5;
+  const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
+  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
+  measured.scale.sheet.reset();
+  Relocate(&measured);
+  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
+  EXPECT_GT(measured.blades.upper.edge.ambiguity, kWarned);
+}
+
 // Without markers nobody knows from where the scissors are seen.
 TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   Measured measured{SceneWithMarkers()};

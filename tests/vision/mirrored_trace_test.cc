@@ -16,42 +16,10 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::FarFrom;
+using testing::kBevelPx;
 using testing::Measured;
 using testing::SceneWithMarkers;
-
-constexpr double kBevelPx = 9;
-
-// The scissors with a bevel on the upper blade that mirrors the sheet but for a few grey levels,
-// brighter here and darker there, in a grainy picture.
-cv::Mat WithMirroringBevel(const SceneSpec& spec) {
-  constexpr double kStepPx = 0.25, kUnlike = 3, kWaves = 1.5, kGrain = 4, kBeyondPx = 3;
-  const cv::Mat picture = RenderScene(spec).bgr;
-  cv::Mat retouched = picture.clone();
-  const std::vector<Vector2d>& edge = TruthOf(spec).upper.px;
-  for (std::size_t i = 1; i < edge.size(); ++i) {
-    const Vector2d along = edge[i] - edge[i - 1];
-    const Vector2d outwards = Vector2d(-along.y(), along.x()).normalized();  // the tips lie right
-    for (double t = 0; t < 1; t += kStepPx / along.norm()) {
-      const Vector2d on_edge = edge[i - 1] + t * along;
-      for (double depth = 0; depth < kBevelPx; depth += kStepPx) {
-        const auto pixel = [](const Vector2d& at) {
-          return cv::Point(static_cast<int>(std::lround(at.x())),
-                           static_cast<int>(std::lround(at.y())));
-        };
-        const cv::Vec3b sheet =
-            picture.at<cv::Vec3b>(pixel(on_edge + (depth + kBeyondPx) * outwards));
-        const double share = static_cast<double>(i) / static_cast<double>(edge.size());
-        const double unlike = kUnlike * std::cos(kWaves * 2 * std::numbers::pi * share);
-        retouched.at<cv::Vec3b>(pixel(on_edge - depth * outwards)) =
-            cv::Vec3b(cv::Vec3d(sheet) + cv::Vec3d::all(std::round(unlike)));
-      }
-    }
-  }
-  cv::Mat grain(retouched.size(), CV_16SC3);
-  cv::RNG(1).fill(grain, cv::RNG::NORMAL, 0, kGrain);
-  cv::add(retouched, grain, retouched, cv::noArray(), CV_8UC3);
-  return retouched;
-}
+using testing::WithMirroringBevel;
 
 // In `picture` of the scene, the upper edge having been taken for the bevel's inner border.
 struct Found {

@@ -47,7 +47,8 @@ TEST(FindPivot, SeesAHeadAsWideAsTheWaistSeems) {
   Scene scene = measured.scene;
   scene.shank_width_px = 18;  // across one shank alone; the head is 21 px wide
   ASSERT_FALSE(LookAtJoint(measured.photo.grey(), measured.scale, scene));
-  const Pivot pivot = FindPivot(measured.photo.grey(), measured.scale, {scene, edges, std::nullopt, std::nullopt});
+  const Pivot pivot =
+      FindPivot(measured.photo.grey(), measured.scale, {scene, edges, std::nullopt, std::nullopt});
   EXPECT_EQ(pivot.source, "screw");
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
 }
