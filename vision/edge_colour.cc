@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "vision/edge_path.h"
+#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -135,6 +137,47 @@ ToneCurve LinearTone(const ToneCurve& original) {
   return tone;
 }
 
+// Places in a picture of one pixel for each factor x factor pixels, and back.
+struct Reduction {
+  Vector2d corner_px;  // of the part of the photograph that was reduced
+  int factor = 1;
+
+  [[nodiscard]] Vector2d There(const Vector2d& px) const {
+    return (px - corner_px - Centre()) / factor;
+  }
+  [[nodiscard]] Vector2d Back(const Vector2d& px) const {
+    return corner_px + Centre() + factor * px;
+  }
+  // Of the first pixel.
+  [[nodiscard]] Vector2d Centre() const { return Vector2d::Constant(0.5 * (factor - 1)); }
+
+  [[nodiscard]] LocatedEdge Back(LocatedEdge edge) const {
+    for (LocatedEdgePoint& p : edge.points) {
+      p.point_px = Back(p.point_px);
+      p.trend_px = Back(p.trend_px);
+      p.sigma_px *= factor;
+    }
+    for (Vector2d& p : edge.rival_path_px) p = Back(p);
+    for (double* length_px : {&edge.blur_px,
+                              &edge.correlation_px,
+                              &edge.common_sigma_px,
+                              &edge.slope_sigma_px,
+                              &edge.rival_px})
+      *length_px *= factor;
+    return edge;
+  }
+};
+
+LocatedEdge LocateReduced(const ColourView& view, const EdgeGuess& guess, int factor) {
+  const Reduction reduction{view.corner_px, factor};
+  cv::Mat grey = view.grey;
+  if (factor > 1) cv::resize(view.grey, grey, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);
+  EdgeGuess reduced = guess;
+  for (Vector2d& p : reduced.path_px) p = reduction.There(p);
+  reduced.search_px /= factor;
+  return reduction.Back(LocateEdge(grey, view.tone, reduced));
+}
+
 }  // namespace
 
 double GreySeparation(const cv::Mat& grey, const ToneCurve& tone, const EdgeGuess& guess) {
@@ -155,15 +198,17 @@ ColourView ViewWhereSidesDiffer(const cv::Mat& bgr, const ToneCurve& tone, const
 }
 
 LocatedEdge LocateEdgeInView(const ColourView& view, const EdgeGuess& guess) {
-  EdgeGuess moved = guess;
-  for (Vector2d& p : moved.path_px) p -= view.corner_px;
-  LocatedEdge edge = LocateEdge(view.grey, view.tone, moved);
-  for (LocatedEdgePoint& p : edge.points) {
-    p.point_px += view.corner_px;
-    p.trend_px += view.corner_px;
+  // Cameras store colours at half the resolution: the edge is soft then, among the sharp borders of
+  // what compression leaves.
+  constexpr int kFull = 1, kHalf = 2;
+  constexpr double kOfBlur = 0.15;  // what uneven blocks beside a soft edge move it by
+  try {
+    return LocateReduced(view, guess, kFull);
+  } catch (const Refused&) {
+    LocatedEdge edge = LocateReduced(view, guess, kHalf);
+    edge.common_sigma_px = std::hypot(edge.common_sigma_px, kOfBlur * edge.blur_px);
+    return edge;
   }
-  for (Vector2d& p : edge.rival_path_px) p += view.corner_px;
-  return edge;
 }
 
 }  // namespace bladecurve

@@ -61,6 +61,31 @@ double MeanOffset(const LocatedEdge& edge) {
   return sum / count;
 }
 
+// Colours are stored at half the resolution, in blocks.
+TEST(ColourView, ShowsASoftEdgeAmongTheBordersOfBlocks) {
+  constexpr double kBlurPx = 3, kClosePx = 0.8, kBlock = 8, kUneven = 13;
+  Gaussian random(2);
+  ColourView view;
+  view.grey.create(kSide, kSide, CV_8UC1);
+  view.tone = testing::GammaCurve(1);
+  view.corner_px = {10, 20};
+  cv::Mat blocks(kSide / static_cast<int>(kBlock), kSide / static_cast<int>(kBlock), CV_64F);
+  for (auto it = blocks.begin<double>(); it != blocks.end<double>(); ++it) *it = random();
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double from_edge = kNormal.dot(Vector2d(x, y) + view.corner_px) - kOffset;
+      const double ground = Smooth(from_edge * 0.8 / kBlurPx);
+      const double uneven =
+          blocks.at<double>(y / static_cast<int>(kBlock), x / static_cast<int>(kBlock));
+      view.grey.at<uchar>(y, x) =
+          cv::saturate_cast<uchar>(90 + ground * (70 + kUneven * uneven) + kNoise * random());
+    }
+  }
+  const LocatedEdge edge = LocateEdgeInView(view, GuessOff(2));
+  EXPECT_NEAR(MeanOffset(edge), 0, kClosePx);
+  EXPECT_GT(edge.common_sigma_px, kClosePx / 2);
+}
+
 TEST(ColourView, ShowsAnEdgeBetweenColoursOfOneGrey) {
   constexpr double kClose = 0.03;                             // px
   const Vector3d steel(120, 110, 100), drape(150, 100, 108);  // luma 108, within one grey value
