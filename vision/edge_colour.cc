@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/edge_path.h"
-#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -198,17 +197,14 @@ ColourView ViewWhereSidesDiffer(const cv::Mat& bgr, const ToneCurve& tone, const
 }
 
 LocatedEdge LocateEdgeInView(const ColourView& view, const EdgeGuess& guess) {
-  // Cameras store colours at half the resolution: the edge is soft then, among the sharp borders of
-  // what compression leaves.
-  constexpr int kFull = 1, kHalf = 2;
+  return LocateReduced(view, guess, 1);
+}
+
+LocatedEdge LocateEdgeInHalvedView(const ColourView& view, const EdgeGuess& guess) {
   constexpr double kOfBlur = 0.15;  // what uneven blocks beside a soft edge move it by
-  try {
-    return LocateReduced(view, guess, kFull);
-  } catch (const Refused&) {
-    LocatedEdge edge = LocateReduced(view, guess, kHalf);
-    edge.common_sigma_px = std::hypot(edge.common_sigma_px, kOfBlur * edge.blur_px);
-    return edge;
-  }
+  LocatedEdge edge = LocateReduced(view, guess, 2);
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, kOfBlur * edge.blur_px);
+  return edge;
 }
 
 }  // namespace bladecurve

@@ -32,4 +32,8 @@ struct ColourView {
 // LocateEdge in that view; points in the photograph's pixels. Throws as LocateEdge does.
 [[nodiscard]] LocatedEdge LocateEdgeInView(const ColourView& view, const EdgeGuess& guess);
 
+// The same at half the resolution, at which cameras store colours: there an edge is sharp that is
+// soft at the full one, among the sharp borders of what compression leaves.
+[[nodiscard]] LocatedEdge LocateEdgeInHalvedView(const ColourView& view, const EdgeGuess& guess);
+
 }  // namespace bladecurve

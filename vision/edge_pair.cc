@@ -114,13 +114,12 @@ class BladeLocator {
   // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
   // the step at the edge alone.
   [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
-    constexpr double kGain = 1.5;  // times better separated; less is no other picture
     try {
       return LocateEdge(photo_.grey(), tone_, guess, options_);
     } catch (const Refused&) {
-      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
-      return LocateEdgeInView(view, guess);
+      const std::optional<ColourView> view = BetterView(guess);
+      if (!view) throw;
+      return LocateEdgeInView(*view, guess);
     }
   }
 
@@ -132,7 +131,7 @@ class BladeLocator {
   }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
-    LocatedEdge edge = InBestChannel(GuessFor(scene_, left));
+    LocatedEdge edge = InBestChannelOrHalved(GuessFor(scene_, left));
     if (IsShadowsBorder(edge, options_.most_blur_px)) edge = LeaveSoftShadow(std::move(edge), left);
     return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
   }
@@ -175,6 +174,24 @@ class BladeLocator {
   }
 
  private:
+  // Colours, if they part blade and background much better than grey does.
+  [[nodiscard]] std::optional<ColourView> BetterView(const EdgeGuess& guess) {
+    constexpr double kGain = 1.5;  // times better separated; less is no other picture
+    ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+    if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) return std::nullopt;
+    return view;
+  }
+
+  [[nodiscard]] LocatedEdge InBestChannelOrHalved(const EdgeGuess& guess) {
+    try {
+      return InBestChannel(guess);
+    } catch (const Refused&) {
+      const std::optional<ColourView> view = BetterView(guess);
+      if (!view) throw;
+      return LocateEdgeInHalvedView(*view, guess);
+    }
+  }
+
   // From a soft shadow's border to where the shadow begins, if that is seen.
   [[nodiscard]] LocatedEdge LeaveSoftShadow(LocatedEdge edge, bool left) const {
     constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty

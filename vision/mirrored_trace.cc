@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -174,6 +175,17 @@ Peak PeakAbout(const std::vector<Support>& supports, std::ptrdiff_t best) {
   return {mean, std::sqrt(std::max(1.0, squares / sum - mean * mean))};
 }
 
+// What speaks most for another border.
+double NextBest(const std::vector<Support>& supports, std::ptrdiff_t best) {
+  constexpr double kApartPx = 4;  // nearer, it is the same one
+  double next = 0;
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    const double apart_px = kStepPx * std::abs(static_cast<double>(i) - static_cast<double>(best));
+    if (apart_px >= kApartPx) next = std::max(next, supports[i].log_odds);
+  }
+  return next;
+}
+
 }  // namespace
 
 std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
@@ -182,7 +194,6 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
                                                const MirrorLine& line,
                                                double difference_px) {
   constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
-  constexpr double kApartPx = 4;                       // nearer, it is the same border
   constexpr double kLeastOdds = 8, kClearly = 2;       // times the next best
   constexpr int kLeastParts = 4;
   constexpr double kUsualBlurPx = 0.8;
@@ -199,12 +210,8 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
     supports.push_back(SupportOf(view, MirroredEdge(other, turned(step)), inner, test));
   const auto best = std::max_element(
       supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
-  double next = 0;
-  for (auto it = supports.begin(); it != supports.end(); ++it) {
-    if (std::abs(it - best) * kStepPx >= kApartPx) next = std::max(next, it->log_odds);
-  }
-  if (best->log_odds < kLeastOdds || best->log_odds < kClearly * next || best->parts < kLeastParts)
-    return std::nullopt;
+  const double least = std::max(kLeastOdds, kClearly * NextBest(supports, best - supports.begin()));
+  if (best->log_odds < least || best->parts < kLeastParts) return std::nullopt;
   const Peak peak = PeakAbout(supports, best - supports.begin());
   // Halfway along the blade the trace moves half as far as its end.
   return MirroredTrace{turned(peak.place - farthest), 0.5 * kStepPx * peak.sigma};

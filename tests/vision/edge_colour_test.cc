@@ -81,7 +81,8 @@ TEST(ColourView, ShowsASoftEdgeAmongTheBordersOfBlocks) {
           cv::saturate_cast<uchar>(90 + ground * (70 + kUneven * uneven) + kNoise * random());
     }
   }
-  const LocatedEdge edge = LocateEdgeInView(view, GuessOff(2));
+  EXPECT_THROW((void)LocateEdgeInView(view, GuessOff(2)), Refused);
+  const LocatedEdge edge = LocateEdgeInHalvedView(view, GuessOff(2));
   EXPECT_NEAR(MeanOffset(edge), 0, kClosePx);
   EXPECT_GT(edge.common_sigma_px, kClosePx / 2);
 }
