@@ -39,19 +39,15 @@ struct Mirroring {
     return std::abs(pivot.asymmetry) * (other.end.point_px - pivot.point_px).norm();
   }
 
-  // search_px, or further where the way is long.
-  [[nodiscard]] double SearchPx(double search_px) const {
-    constexpr double kOfWay = 0.35;
-    return std::max(search_px, kOfWay * WayPx());
-  }
-
+  // search_px: at least so far aside, and further where the way is long.
   [[nodiscard]] EdgeGuess GuessWithin(double search_px) const {
+    constexpr double kOfWay = 0.35;
     EdgeGuess guess;
     for (const LocatedEdgePoint& p : other.edge.points) {
       if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
     }
     guess.blade_on_left = !other.on_left;
-    guess.search_px = search_px;
+    guess.search_px = std::max(search_px, kOfWay * WayPx());
     return guess;
   }
 
@@ -80,7 +76,7 @@ struct Mirroring {
   // The place where a shadow begins.
   [[nodiscard]] std::optional<Relocated> LookInShadow(double search_px) const {
     std::optional<LocatedEdge> edge =
-        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(SearchPx(search_px)));
+        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(search_px));
     if (!edge) return std::nullopt;
     return UnlessRefused([&] { return WithEdge(*std::move(edge)); });
   }
@@ -91,9 +87,9 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
   const bool suspect = AreSuspect(mirroring.pivot.asymmetry);
-  std::optional<Relocated> found = mirroring.LookWithin(mirroring.SearchPx(kNearest));
+  std::optional<Relocated> found = mirroring.LookWithin(kNearest);
   if (suspect && found && mirroring.LeftBy(*found) > kSame)  // the line that is doubted
-    found = mirroring.LookWithin(mirroring.SearchPx(kShortOf * mirroring.WayPx()));
+    found = mirroring.LookWithin(kShortOf * mirroring.WayPx());
   if (!found || (suspect && mirroring.LeftBy(*found) >= kMuchLess)) return std::nullopt;
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
@@ -122,9 +118,9 @@ bool IsBetter(const std::optional<Relocated>& found,
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
-// The other blade's edge, mirrored, for want of a better one: as good as that and the trace are,
-// and marked as doubtful.
-LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace) {
+// The other blade's edge, mirrored, for want of a better one: as good as that, the pivot and the
+// trace are, and marked as doubtful.
+LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
   LocatedEdge edge = other.edge;
   for (LocatedEdgePoint& p : edge.points) {
     const Vector2d outside_px = trace.line.Reflected(p.trend_px + p.normal);
@@ -132,7 +128,8 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace) {
     p.trend_px = trace.line.Reflected(p.trend_px);
     p.normal = (outside_px - p.trend_px).normalized();
   }
-  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px);
+  const double pivot_sigma_px = std::sqrt(pivot.covariance_px2.trace() / 2);
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot_sigma_px);
   edge.ambiguity = kAssumedAmbiguity;
   edge.rival_px = 0;
   edge.rival_path_px.clear();
@@ -151,7 +148,8 @@ void TraceInnerOne(const MirrorView& view, const MirrorLine& line, Pivot* pivot,
   const auto trace = FindMirroredTrace(view, inner, other, line, way_px);
   if (!trace) return;
   const Mirroring mirroring{view, *pivot, other, trace->line};
-  const auto found = UnlessRefused([&] { return mirroring.WithEdge(Borrowed(other, *trace)); });
+  const auto found =
+      UnlessRefused([&] { return mirroring.WithEdge(Borrowed(other, *trace, *pivot)); });
   if (found) Replace(*found, &inner, pivot);
 }
 
