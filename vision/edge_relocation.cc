@@ -94,10 +94,13 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
 
-void Replace(const Relocated& found, LocatedBlade* blade, Pivot* pivot) {
+void Replace(const Relocated& found, const char* where, LocatedBlade* blade, Pivot* pivot) {
   *blade = found.blade;
+  blade->moved = where;
   pivot->asymmetry = found.asymmetry;
 }
+
+constexpr const char* kWhereMirrored = "where the other one puts it";
 
 // Whether it is the other blade's mirror image that lies further out.
 bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
@@ -150,7 +153,8 @@ void TraceInnerOne(const MirrorView& view, const MirrorLine& line, Pivot* pivot,
   const Mirroring mirroring{view, *pivot, other, trace->line};
   const auto found =
       UnlessRefused([&] { return mirroring.WithEdge(Borrowed(other, *trace, *pivot)); });
-  if (found) Replace(*found, &inner, pivot);
+  if (found)
+    Replace(*found, "the other one mirrored, along a faint step in the light", &inner, pivot);
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
@@ -168,9 +172,9 @@ void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   }
   if (upper_better == lower_better) return;
   if (upper_better) {
-    Replace(*upper, &blades->upper, pivot);
+    Replace(*upper, kWhereMirrored, &blades->upper, pivot);
   } else {
-    Replace(*lower, &blades->lower, pivot);
+    Replace(*lower, kWhereMirrored, &blades->lower, pivot);
   }
 }
 
@@ -191,7 +195,7 @@ bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const std::optional<Relocated> found = mirroring.LookInShadow(kNearest);
   if (!found || found->blade.edge.ambiguity > kSeen) return false;
   if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
-  Replace(*found, &outer, pivot);
+  Replace(*found, "inside a shadow, where the other one puts it", &outer, pivot);
   if (!KnowsMirror(view, *pivot))
     outer.edge.ambiguity = std::max(outer.edge.ambiguity, kAssumedAmbiguity);
   return true;
@@ -209,7 +213,7 @@ void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
   if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
-    Replace(*found, &doubtful, pivot);
+    Replace(*found, kWhereMirrored, &doubtful, pivot);
 }
 
 }  // namespace

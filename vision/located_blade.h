@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "vision/distal_end.h"
@@ -20,6 +21,7 @@ struct LocatedBlade {
   DistalEnd end;
   std::optional<DistalEnd> rival_end;  // where it may lie instead
   std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
+  std::string moved = {};              // to where, if the edge was located anew; else empty
 };
 
 // Both blades of a pair, trimmed.

@@ -196,6 +196,11 @@ Pivot LocatePivot(const Photo& photo,
   return pivot;
 }
 
+void LogMoved(const Blades& blades, StageLog* log) {
+  if (!blades.upper.moved.empty()) log->Ran("upper-edge-again", blades.upper.moved);
+  if (!blades.lower.moved.empty()) log->Ran("lower-edge-again", blades.lower.moved);
+}
+
 // Where what was taken for the screw is none, the blades alone say where they turn.
 void DropFalseHead(const ScaleResult& scale,
                    const Scene& scene,
@@ -257,6 +262,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   const MirrorView view{photo, scale, scene};
   RelocateUnlikeEdges(view, &pivot, &parts.blades);
+  LogMoved(parts.blades, &log);
   DropFalseHead(scale, scene, parts.blades, &pivot, &log);
   RefuseUnlikeEdges(pivot, scale);
   CutWhereEdgesPart(view, pivot, &parts.blades);

@@ -114,6 +114,8 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAWideShadowWithoutMarkers) {
   ASSERT_GT(FarFrom(measured.truth.lower, measured.blades.lower.used), kShadowPx);
   Relocate(&measured);
   EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx);
+  EXPECT_NE(measured.blades.lower.moved, "");
+  EXPECT_EQ(measured.blades.upper.moved, "");
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
