@@ -99,9 +99,13 @@ bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
 bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 
+bool PassUnlike(const Pivot& pivot) {
+  return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
+}
+
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.75, kShare = 0.6;  // ambiguity; sigma, of the way to the other one
-  if (pivot.source == "geometry" || !AreUnlike(pivot.asymmetry)) return;
+  if (!PassUnlike(pivot)) return;
   const double length_px = BladeLength(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;

@@ -122,16 +122,16 @@ LocatedEdge FitFromTheShadow(ChosenTransition chosen, bool blade_on_left, const 
 }
 
 // Median of one of the numbers of the points that count.
-double MedianOf(double LocatedEdgePoint::*number, const LocatedEdge& edge) {
+double MedianOf(double LocatedEdgePoint::*number, const std::vector<LocatedEdgePoint>& points) {
   std::vector<double> numbers;
-  for (const LocatedEdgePoint& point : edge.points) {
+  for (const LocatedEdgePoint& point : points) {
     if (point.inlier) numbers.push_back(point.*number);
   }
   return Median(std::move(numbers));
 }
 
 double TotalSigma(const LocatedEdge& edge) {
-  return std::hypot(MedianOf(&LocatedEdgePoint::sigma_px, edge), edge.common_sigma_px);
+  return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
 }
 
 EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
@@ -144,7 +144,11 @@ EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOption
 }  // namespace
 
 double TypicalContrast(const LocatedEdge& edge) {
-  return MedianOf(&LocatedEdgePoint::contrast, edge);
+  return MedianOf(&LocatedEdgePoint::contrast, edge.points);
+}
+
+double TypicalSigma(const std::vector<LocatedEdgePoint>& points) {
+  return MedianOf(&LocatedEdgePoint::sigma_px, points);
 }
 
 LocatedEdge LocateEdge(const cv::Mat& grey,

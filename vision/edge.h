@@ -58,8 +58,9 @@ struct LocatedEdge {
   std::vector<Eigen::Vector2d> rival_path_px;  // the other transition, to a few px
 };
 
-// Median over the points that count: background minus blade, linear light.
+// Medians over the points that count: background minus blade, linear light; sigma_px.
 [[nodiscard]] double TypicalContrast(const LocatedEdge& edge);
+[[nodiscard]] double TypicalSigma(const std::vector<LocatedEdgePoint>& points);
 
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw
 // pixels in a narrow band. Of several transitions (bevel line, glint, shadow border) it takes the

@@ -101,6 +101,11 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   return path;
 }
 
+LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
+  const auto edge = UnlessRefused([&] { return LocateEdgeInView(view, guess); });
+  return edge ? *edge : LocateEdgeInHalvedView(view, guess);
+}
+
 // Looks for the edges of one photograph, both at a time if need be; decodes its colours only if
 // grey leaves a doubt.
 class BladeLocator {
@@ -114,13 +119,7 @@ class BladeLocator {
   // is looked at. Not before: the mixture depends on what lies somewhere beside the edge, grey on
   // the step at the edge alone.
   [[nodiscard]] LocatedEdge InBestChannel(const EdgeGuess& guess) {
-    try {
-      return LocateEdge(photo_.grey(), tone_, guess, options_);
-    } catch (const Refused&) {
-      const std::optional<ColourView> view = BetterView(guess);
-      if (!view) throw;
-      return LocateEdgeInView(*view, guess);
-    }
+    return InGreyOr(LocateEdgeInView, guess);
   }
 
   // The edge along `guess` as the place where a shadow begins, if it is seen.
@@ -131,7 +130,7 @@ class BladeLocator {
   }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
-    LocatedEdge edge = InBestChannelOrHalved(GuessFor(scene_, left));
+    LocatedEdge edge = InGreyOr(InViewOrHalved, GuessFor(scene_, left));
     if (IsShadowsBorder(edge, options_.most_blur_px)) edge = LeaveSoftShadow(std::move(edge), left);
     return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
   }
@@ -174,21 +173,17 @@ class BladeLocator {
   }
 
  private:
-  // Colours, if they part blade and background much better than grey does.
-  [[nodiscard]] std::optional<ColourView> BetterView(const EdgeGuess& guess) {
+  // look(view, guess) in colours that part blade and background much better than grey does, where
+  // grey hides the edge.
+  template <typename Look>
+  [[nodiscard]] LocatedEdge InGreyOr(const Look& look, const EdgeGuess& guess) {
     constexpr double kGain = 1.5;  // times better separated; less is no other picture
-    ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-    if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) return std::nullopt;
-    return view;
-  }
-
-  [[nodiscard]] LocatedEdge InBestChannelOrHalved(const EdgeGuess& guess) {
     try {
-      return InBestChannel(guess);
+      return LocateEdge(photo_.grey(), tone_, guess, options_);
     } catch (const Refused&) {
-      const std::optional<ColourView> view = BetterView(guess);
-      if (!view) throw;
-      return LocateEdgeInHalvedView(*view, guess);
+      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
+      return look(view, guess);
     }
   }
 

@@ -260,8 +260,10 @@ class Comparison {
 }  // namespace
 
 void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  const bool seem_alike = AssumesMirror(view, pivot) && AreAlike(pivot.asymmetry);
-  if (AreUnlike(pivot.asymmetry) || !(KnowsMirror(view, pivot) || seem_alike)) return;
+  if (!AssumesMirror(view, pivot)) return;
+  const bool may_agree =
+      KnowsMirror(view, pivot) ? !AreUnlike(pivot.asymmetry) : AreAlike(pivot.asymmetry);
+  if (!may_agree) return;
   const Blades before = *blades;
   Comparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();

@@ -100,6 +100,16 @@ void Replace(const Relocated& found, const char* where, LocatedBlade* blade, Piv
   pivot->asymmetry = found.asymmetry;
 }
 
+// The upper blade or the lower one, and the other.
+struct Chosen {
+  LocatedBlade& blade;
+  const LocatedBlade& other;
+};
+
+Chosen OneOf(Blades* blades, bool upper) {
+  return upper ? Chosen{blades->upper, blades->lower} : Chosen{blades->lower, blades->upper};
+}
+
 constexpr const char* kWhereMirrored = "where the other one puts it";
 
 // Whether it is the other blade's mirror image that lies further out.
@@ -125,12 +135,7 @@ bool IsBetter(const std::optional<Relocated>& found,
 // trace are, and marked as doubtful.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
   LocatedEdge edge = other.edge;
-  for (LocatedEdgePoint& p : edge.points) {
-    const Vector2d outside_px = trace.line.Reflected(p.trend_px + p.normal);
-    p.point_px = trace.line.Reflected(p.point_px);
-    p.trend_px = trace.line.Reflected(p.trend_px);
-    p.normal = (outside_px - p.trend_px).normalized();
-  }
+  for (LocatedEdgePoint& p : edge.points) p = trace.line.Reflected(p);
   const double pivot_sigma_px = std::sqrt(pivot.covariance_px2.trace() / 2);
   edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot_sigma_px);
   edge.ambiguity = kAssumedAmbiguity;
@@ -144,15 +149,12 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, cons
 // About a head that may be none, the edges say nothing of each other.
 void TraceInnerOne(const MirrorView& view, const MirrorLine& line, Pivot* pivot, Blades* blades) {
   if (pivot->screw && IsFaint(*pivot->screw)) return;
-  const bool is_upper = LiesInwards(blades->upper, *pivot);
-  LocatedBlade& inner = is_upper ? blades->upper : blades->lower;
-  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
-  const double way_px = Mirroring{view, *pivot, other, line}.WayPx();
-  const auto trace = FindMirroredTrace(view, inner, other, line, way_px);
+  const auto [inner, other] = OneOf(blades, LiesInwards(blades->upper, *pivot));
+  const Mirroring mirroring{view, *pivot, other, line};
+  const auto trace = FindMirroredTrace(view, inner, other, line, mirroring.WayPx());
   if (!trace) return;
-  const Mirroring mirroring{view, *pivot, other, trace->line};
-  const auto found =
-      UnlessRefused([&] { return mirroring.WithEdge(Borrowed(other, *trace, *pivot)); });
+  const LocatedEdge edge = Borrowed(other, *trace, *pivot);
+  const auto found = UnlessRefused([&] { return mirroring.WithEdge(edge); });
   if (found)
     Replace(*found, "the other one mirrored, along a faint step in the light", &inner, pivot);
 }
@@ -166,15 +168,13 @@ void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
       IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, *pivot));
   const bool lower_better =
       IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, *pivot));
-  if (!upper_better && !lower_better) {
-    TraceInnerOne(view, line, pivot, blades);
-    return;
-  }
-  if (upper_better == lower_better) return;
+  if (upper_better && lower_better) return;
   if (upper_better) {
     Replace(*upper, kWhereMirrored, &blades->upper, pivot);
-  } else {
+  } else if (lower_better) {
     Replace(*lower, kWhereMirrored, &blades->lower, pivot);
+  } else {
+    TraceInnerOne(view, line, pivot, blades);
   }
 }
 
@@ -187,9 +187,7 @@ bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   constexpr double kLeft = 0.3;          // of the difference
   constexpr double kNearest = 1;         // px
   constexpr double kSeen = 0.65;         // ambiguity; what texture shows is seen less
-  const bool is_upper = !LiesInwards(blades->upper, *pivot);
-  LocatedBlade& outer = is_upper ? blades->upper : blades->lower;
-  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
+  const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, *pivot));
   const Mirroring mirroring{view, *pivot, other, LineBetween(view, *pivot, *blades)};
   if (std::abs(pivot->asymmetry) < kLeastShare || mirroring.WayPx() < kLeastPx) return false;
   const std::optional<Relocated> found = mirroring.LookInShadow(kNearest);
@@ -204,9 +202,7 @@ bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
 void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
-  const bool is_upper = IsDoubtful(blades->upper.edge);
-  LocatedBlade& doubtful = is_upper ? blades->upper : blades->lower;
-  const LocatedBlade& other = is_upper ? blades->lower : blades->upper;
+  const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
   const std::optional<Relocated> found =
       LookWhereMirrored({view, *pivot, other, LineBetween(view, *pivot, *blades)});

@@ -48,10 +48,7 @@ std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point)
   return points;
 }
 
-// The trend of all inlying points, and how far each lies off it, in its own sigmas.
-std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points,
-                            double spacing_px,
-                            double length_px = kTrendPx) {
+void SetTrend(double spacing_px, double length_px, std::vector<LocatedEdgePoint>& points) {
   std::vector<double> x, y, weights;
   for (const LocatedEdgePoint& point : points) {
     x.push_back(point.point_px.x());
@@ -62,12 +59,15 @@ std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points,
                            std::pow(length_px / spacing_px / (2 * std::numbers::pi), 4);
   x = SmoothValues(x, weights, stiffness);
   y = SmoothValues(y, weights, stiffness);
+  for (size_t i = 0; i < points.size(); ++i) points[i].trend_px = {x[i], y[i]};
+}
+
+// The trend of all inlying points, and how far each lies off it, in its own sigmas.
+std::vector<double> Detrend(std::vector<LocatedEdgePoint>& points, double spacing_px) {
+  SetTrend(spacing_px, kTrendPx, points);
   std::vector<double> scatter;
-  for (size_t i = 0; i < points.size(); ++i) {
-    points[i].trend_px = {x[i], y[i]};
-    scatter.push_back(points[i].normal.dot(points[i].point_px - points[i].trend_px) /
-                      points[i].sigma_px);
-  }
+  for (const LocatedEdgePoint& p : points)
+    scatter.push_back(p.normal.dot(p.point_px - p.trend_px) / p.sigma_px);
   return scatter;
 }
 
@@ -104,18 +104,13 @@ double PointsPerIndependentOne(const std::vector<double>& normalized) {
 }
 
 // Where points scatter more than usual, more of them tell where the edge runs.
-void SmoothNoisyTrend(double spacing_px, std::vector<LocatedEdgePoint>* points) {
+void SmoothNoisyTrend(double spacing_px, std::vector<LocatedEdgePoint>& points) {
   constexpr double kUsual = 0.3;       // px, of a point
   constexpr double kMostOfEdge = 0.5;  // blades bend over no less
-  std::vector<double> sigmas;
-  for (const LocatedEdgePoint& point : *points) {
-    if (point.inlier) sigmas.push_back(point.sigma_px);
-  }
-  if (sigmas.empty()) return;
-  const double edge_px = spacing_px * static_cast<double>(points->size());
+  const double edge_px = spacing_px * static_cast<double>(points.size());
   const double length_px =
-      std::min(kMostOfEdge * edge_px, kTrendPx * Median(std::move(sigmas)) / kUsual);
-  if (length_px > kTrendPx) (void)Detrend(*points, spacing_px, length_px);
+      std::min(kMostOfEdge * edge_px, kTrendPx * TypicalSigma(points) / kUsual);
+  if (length_px > kTrendPx) SetTrend(spacing_px, length_px, points);
 }
 
 }  // namespace
@@ -148,7 +143,7 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
     edge.points[i].sigma_px *= excess;
     if (edge.points[i].inlier) inlying.push_back(scatter[i]);
   }
-  SmoothNoisyTrend(spacing_px, &edge.points);
+  SmoothNoisyTrend(spacing_px, edge.points);
   edge.correlation_px = PointsPerIndependentOne(inlying) * spacing_px;
   edge.blur_px = fit.blur_px;
   edge.noise =

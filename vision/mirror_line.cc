@@ -19,8 +19,16 @@ Vector2d MirrorLine::Reflected(const Vector2d& image_px) const {
   return map.ImageFromPlane(pivot + 2 * offset.dot(direction) * direction - offset);
 }
 
+LocatedEdgePoint MirrorLine::Reflected(LocatedEdgePoint point) const {
+  const Vector2d outside_px = Reflected(Vector2d(point.trend_px + point.normal));
+  point.point_px = Reflected(point.point_px);
+  point.trend_px = Reflected(point.trend_px);
+  point.normal = (outside_px - point.trend_px).normalized();
+  return point;
+}
+
 bool KnowsMirror(const MirrorView& view, const Pivot& pivot) {
-  return view.scale.sheet && pivot.source != "geometry";
+  return view.scale.sheet && AssumesMirror(view, pivot);
 }
 
 bool AssumesMirror(const MirrorView& view, const Pivot& pivot) {

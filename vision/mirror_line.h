@@ -26,6 +26,8 @@ struct MirrorLine {
   // The image of a point of the plane, from the pivot on along the line and aside of it.
   [[nodiscard]] Eigen::Vector2d At(double along, double aside) const;
   [[nodiscard]] Eigen::Vector2d Reflected(const Eigen::Vector2d& image_px) const;
+  // A point of one edge as a point of the other.
+  [[nodiscard]] LocatedEdgePoint Reflected(LocatedEdgePoint point) const;
 };
 
 // A photograph and what is known of it before the edges are compared.

@@ -16,7 +16,6 @@
 namespace bladecurve {
 namespace {
 
-using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -27,23 +26,12 @@ constexpr int kHalfTaps = 10;
 constexpr int kTaps = 2 * kHalfTaps + 1;
 constexpr double kStepPx = 0.5;  // of the trace's end, from one direction of the mirror to the next
 
-// Where the other edge's mirror image lies, and its normals.
-struct Trace {
-  std::vector<Vector2d> points, normals;
-};
+// Where the other edge's mirror image lies.
+using Trace = std::vector<LocatedEdgePoint>;
 
 Trace MirroredEdge(const LocatedBlade& other, const MirrorLine& line) {
-  constexpr std::ptrdiff_t kAside = 5;  // points between which the direction is taken
   Trace trace;
-  for (const LocatedEdgePoint& p : other.used) trace.points.push_back(line.Reflected(p.trend_px));
-  const auto last = static_cast<std::ptrdiff_t>(trace.points.size()) - 1;
-  for (std::ptrdiff_t i = 0; i <= last; ++i) {
-    const auto at = [&](std::ptrdiff_t k) {
-      return trace.points[static_cast<std::size_t>(std::clamp(k, std::ptrdiff_t{0}, last))];
-    };
-    const Vector2d along = at(i + kAside) - at(i - kAside);
-    trace.normals.emplace_back(Vector2d(along.y(), -along.x()).normalized());
-  }
+  for (const LocatedEdgePoint& p : other.used) trace.push_back(line.Reflected(p));
   return trace;
 }
 
@@ -121,7 +109,7 @@ VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& p
   for (int k = 0; k < kTaps; ++k) {
     along.clear();
     for (std::size_t i = part.first; i < part.end; ++i) {
-      const Vector2d at = trace.points[i] + (k - kHalfTaps) * kTapPx * trace.normals[i];
+      const Vector2d at = trace[i].trend_px + (k - kHalfTaps) * kTapPx * trace[i].normal;
       along.push_back(
           Bilinear<uchar>(view.photo.grey(), at, [&](uchar grey) { return linear[grey]; }));
     }
@@ -144,8 +132,8 @@ Support SupportOf(const MirrorView& view,
   constexpr double kClearOfInner = 3.5, kLeast = -1, kMost = 8, kSpeaks = 1;
   Support support;
   for (int index = 0; index < kParts; ++index) {
-    const Part part = PartOf(trace.points.size(), index);
-    if (OutsideBy(inner, trace.points[(part.first + part.end) / 2]) < kClearOfInner) continue;
+    const Part part = PartOf(trace.size(), index);
+    if (OutsideBy(inner, trace[(part.first + part.end) / 2].trend_px) < kClearOfInner) continue;
     const double log_odds = test.LogOdds(ProfileAcross(view, trace, part));
     support.log_odds += std::clamp(log_odds, kLeast, kMost);
     if (log_odds > kSpeaks) ++support.parts;

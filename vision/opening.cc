@@ -45,9 +45,7 @@ Opening MeasureOpening(const PlaneMap& map,
   // Blades that are no mirror images about the pivot: one of the edges is something else's border,
   // or the view is oblique. Either may turn the angle by as much as they differ.
   constexpr double kOfDifference = 0.3;
-  const double doubt = pivot.source != "geometry" && AreUnlike(pivot.asymmetry)
-                           ? kOfDifference * pivot.asymmetry
-                           : 0;
+  const double doubt = PassUnlike(pivot) ? kOfDifference * pivot.asymmetry : 0;
   opening.sigma_rad = std::hypot(std::sqrt(variance), doubt);
   return opening;
 }

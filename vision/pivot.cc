@@ -138,11 +138,12 @@ ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double 
 // The same for heads wider than usual: a waist that was measured across one shank alone is no wider
 // than the head.
 ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
-  constexpr double kWidest = 0.6;  // of the members, a head's radius
+  constexpr double kWidest = 0.6;   // of the members, a head's radius
+  constexpr double kOverlap = 0.8;  // of the widest usual one: between the two none is lost
   ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
   const double members_px =
       std::max({scene.shank_width_px, scene.left.width_px, scene.right.width_px});
-  search.min_semi_axis_px = 0.8 * search.max_semi_axis_px;
+  search.min_semi_axis_px = kOverlap * search.max_semi_axis_px;
   search.max_semi_axis_px = std::max(search.max_semi_axis_px, kWidest * members_px);
   return search;
 }

@@ -40,11 +40,7 @@ Found FindIn(const SceneSpec& spec, const cv::Mat& picture) {
                         kBevelPx);
   if (!trace) return {};
   std::vector<LocatedEdgePoint> points = lower.used;
-  for (LocatedEdgePoint& p : points) {
-    const Vector2d aside = trace->line.Reflected(p.point_px + p.normal);
-    p.point_px = trace->line.Reflected(p.point_px);
-    p.normal = (aside - p.point_px).normalized();
-  }
+  for (LocatedEdgePoint& p : points) p = trace->line.Reflected(p);
   return {true, FarFrom(measured.truth.upper, points)};
 }
 
