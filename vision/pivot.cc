@@ -148,8 +148,23 @@ ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
   return search;
 }
 
+// A half-lit head where geometry puts the pivot: nearly all of two thirds of its rim.
+ScrewSearch SearchHalfLit(const ScaleResult& scale, const Scene& scene, const Pivot& geometry) {
+  constexpr double kSigmas = 2;
+  constexpr double kClear = 10;  // elsewhere reach 8.6
+  const double sigma_px = std::sqrt(geometry.covariance_px2.eigenvalues().real().maxCoeff());
+  ScrewSearch search =
+      SearchForHead(scale,
+                    scene,
+                    geometry.point_px,
+                    std::clamp(kSigmas * sigma_px, 3.0, 0.5 * scene.shank_width_px));
+  search.half_lit = true;
+  search.least_evidence = kClear;
+  return search;
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
-// nearer, so that fewer other arcs compete, and further back. The clearest counts.
+// nearer, so that fewer other arcs compete, and further back and forth. The clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
                                   const ScaleResult& scale,
                                   const PivotSearch& known,
@@ -158,7 +173,8 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
   std::optional<Screw> clearest = known.at_joint;
   for (const ScrewSearch& search :
        {SearchForHead(scale, scene, guess_px, 0.35 * scene.shank_width_px),
-        SearchOverlap(scale, scene, 0.25)}) {
+        SearchOverlap(scale, scene, 0.25),
+        SearchOverlap(scale, scene, 0.75)}) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
     const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
@@ -173,27 +189,39 @@ PlacePx FootBelow(const Screw& screw, const ScaleResult& scale, const Scene& sce
   return {foot.point_px, head.covariance_px2 + foot.covariance_px2};
 }
 
-// A head all about the overlap that outdoes `seen`, none or a faint one about which the edges are
-// no mirror images by far: one about which they are, beyond doubt.
-std::optional<Screw> LookAllAbout(const cv::Mat& grey,
-                                  const ScaleResult& scale,
-                                  const PivotSearch& known,
-                                  const std::optional<Screw>& seen) {
-  const auto asymmetry = [&](const Screw& screw) {
-    return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
+// What the edges say of a head: see EdgeAsymmetry.
+double AsymmetryAbout(const Screw& screw, const ScaleResult& scale, const PivotSearch& known) {
+  return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
+}
+
+// Where no head was seen: one all about the overlap, a wider one, a half-lit one. Necks of members
+// are round, too, but less so than heads; about few of them the edges mirror each other.
+std::optional<Screw> LookFurther(const cv::Mat& grey,
+                                 const ScaleResult& scale,
+                                 const PivotSearch& known,
+                                 const Pivot& geometry) {
+  constexpr double kUnmistakable = 25;
+  const auto mirrors = [&](const Screw& screw) {
+    return !AreSuspect(AsymmetryAbout(screw, scale, known));
   };
-  if (!seen) {
-    constexpr double kUnmistakable = 25;  // necks of members are round, too, but less so
-    const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
-    if (usual) return usual;
-    const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, known.scene));
-    const bool sure = wide && (wide->evidence > kUnmistakable || !AreSuspect(asymmetry(*wide)));
-    return sure ? wide : std::nullopt;
-  }
-  if (!IsFaint(*seen) || !AreFarUnlike(asymmetry(*seen))) return seen;
+  const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
+  if (usual) return usual;
+  const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, known.scene));
+  if (wide && (wide->evidence > kUnmistakable || mirrors(*wide))) return wide;
+  const auto half = FindScrew(grey, scale.tone, SearchHalfLit(scale, known.scene, geometry));
+  return half && mirrors(*half) ? half : std::nullopt;
+}
+
+// A head all about the overlap that outdoes a faint one about which the edges are no mirror images
+// by far: one about which they are, beyond doubt.
+Screw LessFaint(const cv::Mat& grey,
+                const ScaleResult& scale,
+                const PivotSearch& known,
+                const Screw& seen) {
+  if (!IsFaint(seen) || !AreFarUnlike(AsymmetryAbout(seen, scale, known))) return seen;
   const std::optional<Screw> other =
       FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kBeyondDoubt));
-  return other && !AreSuspect(asymmetry(*other)) ? other : seen;
+  return other && !AreSuspect(AsymmetryAbout(*other, scale, known)) ? *other : seen;
 }
 
 // What the picture says of the edges' overlap: without a screw, where the members cross.
@@ -232,8 +260,9 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.covariance_px2.setIdentity();
     pivot.source = "hint";
   } else {
+    const std::optional<Screw> seen = LookForScrew(grey, scale, search, pivot.point_px);
     pivot.screw =
-        LookAllAbout(grey, scale, search, LookForScrew(grey, scale, search, pivot.point_px));
+        seen ? LessFaint(grey, scale, search, *seen) : LookFurther(grey, scale, search, pivot);
   }
   if (pivot.screw) {
     const PlacePx foot = FootBelow(*pivot.screw, scale, search.scene);

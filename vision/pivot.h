@@ -47,7 +47,8 @@ struct PivotSearch {
 // In the plane of the edges: below the screw's head if that is seen; else on the line about which
 // the two edges mirror each other, where the members' overlap and the edges' usual overlap put it.
 // How obliquely a head is seen the markers say, where there are any. Where a faint head leaves the
-// edges far unlike, one beyond doubt elsewhere is taken about which they mirror each other.
+// edges far unlike, one beyond doubt elsewhere is taken about which they mirror each other; where
+// none is seen, also a half-lit one about which they do.
 [[nodiscard]] Pivot FindPivot(const cv::Mat& grey,
                               const ScaleResult& scale,
                               const PivotSearch& search);

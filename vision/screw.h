@@ -57,6 +57,9 @@ struct ScrewSearch {
   // Below, nothing is returned: where no head is seen, shank edges, grain, cloth and lettering
   // seldom reach 4. Blade tips, which are round, reach 13; they must not be within the radius.
   double least_evidence = 5;
+  // Rims of which a third does not show at all count, too: light from one side leaves no more of
+  // some. Tips and corners look like them.
+  bool half_lit = false;
 };
 
 // The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with

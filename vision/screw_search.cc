@@ -21,24 +21,39 @@ constexpr double kLeastThird = 0.28;
 // Heads are judged at 14 to 28 px: larger ones show more grain than rim.
 constexpr double kJudgedRadiusPx = 14;
 
-// How sure one may be that this is a rim, as the natural logarithm of the odds against chance.
-// Support: n independent places of the rim, each of which looks like a rim with probability p by
-// chance, has the binomial tail exp(-n KL(support || p)) (Chernoff), the "number of false alarms"
-// of Desolneux, Moisan and Morel. Shape: photographs are taken nearly from above. Contrast: how
-// much the rim stands out of its surroundings; its weight is empirical, chosen on photographs where
-// it parts screws (5 and more) from shank edges, grain and lettering (seldom 4).
-double Evidence(double support, double radius_judged_px, double axis_ratio, double contrast_score) {
-  constexpr double kChance = 0.35;           // of support, after the fit has chosen the best place
-  constexpr double kIndependentPx = 2.5;     // smoothing along the rim
+// The logarithm of the odds against chance of so many places that look like a rim, of which `share`
+// do: n independent ones, each of which does with probability p by chance, have the binomial tail
+// exp(-n KL(share || p)) (Chernoff), the "number of false alarms" of Desolneux, Moisan and Morel.
+double SupportEvidence(double share, double length_px) {
+  constexpr double kChance = 0.35;        // after the fit has chosen the best place
+  constexpr double kIndependentPx = 2.5;  // smoothing along the rim
+  if (share <= kChance) return 0;
+  const double s = std::min(share, 0.999);
+  const double divergence = s * std::log(s / kChance) + (1 - s) * std::log((1 - s) / (1 - kChance));
+  return length_px / kIndependentPx * divergence;
+}
+
+// The same of all of a rim; of a half-lit one, where that says more, of the two thirds beside the
+// poorest, which may lie anywhere.
+double SupportEvidence(const RimFit& fit, double radius_judged_px, bool half_lit) {
+  constexpr double kChoices = 2.5;  // ln of the number of independent places of the poorest third
+  const double length = 2 * std::numbers::pi * radius_judged_px;
+  const double whole = SupportEvidence(fit.support, length);
+  if (!half_lit) return whole;
+  const double share = 1.5 * fit.support - 0.5 * fit.third_support;
+  return std::max(whole, SupportEvidence(share, length / 1.5) - kChoices);
+}
+
+// What else speaks for a rim. Shape: photographs are taken nearly from above. Contrast: how much it
+// stands out of its surroundings; its weight is empirical, chosen on photographs where it parts
+// screws (5 and more with their support) from shank edges, grain and lettering (seldom 4).
+double LooksEvidence(const RimEllipse& rim, double contrast_score) {
   constexpr double kUsualElongation = 0.12;  // spread of ln(a/b): tilts up to 27 degrees
   constexpr double kContrastWeight = 20, kNeutralContrast = 0.6, kMostContrast = 0.85;
-  if (support <= kChance) return 0;
-  const double s = std::min(support, 0.999);
-  const double divergence = s * std::log(s / kChance) + (1 - s) * std::log((1 - s) / (1 - kChance));
-  const double places = 2 * std::numbers::pi * radius_judged_px / kIndependentPx;
-  const double elongation = std::log(axis_ratio) / kUsualElongation;
-  return places * divergence - 0.5 * elongation * elongation +
-         kContrastWeight * (std::min(contrast_score, kMostContrast) - kNeutralContrast);
+  const Eigen::Vector2d axes = rim.SemiAxes();
+  const double elongation = std::log(axes[0] / axes[1]) / kUsualElongation;
+  return kContrastWeight * (std::min(contrast_score, kMostContrast) - kNeutralContrast) -
+         0.5 * elongation * elongation;
 }
 
 // Of rims of one head, what speaks against this one where the view is known: ln of the odds. A rim
@@ -57,6 +72,10 @@ bool Admissible(const RimEllipse& rim, const ScrewSearch& search) {
   return axes[0] >= kLeastAxisRatio * axes[1] && axes[0] >= kLeastSemiAxisPx &&
          axes[0] >= 0.9 * search.min_semi_axis_px && axes[1] <= 1.1 * search.max_semi_axis_px &&
          (rim.center - search.guess_px).norm() <= 1.1 * search.radius_px + 1;
+}
+
+bool IsOneSided(const FoundRim& found, const ScrewSearch& search) {
+  return !search.half_lit && found.fit.third_support < kLeastThird;
 }
 
 bool IsPreferred(const FoundRim& a, const FoundRim& b) { return a.Preference() > b.Preference(); }
@@ -96,7 +115,7 @@ class Octave {
       best = Polish(best);
       rims.push_back(best);
     }
-    if (best.fit.third_support < kLeastThird) rims.clear();
+    if (IsOneSided(best, search_)) rims.clear();
     return rims;
   }
 
@@ -139,12 +158,12 @@ class Octave {
     fit->rim = fit->rim.OutOf(fine_.origin, fine_.scale);
     fit->center_covariance *= fine_.scale * fine_.scale;
     if (!Admissible(fit->rim, search_)) return std::nullopt;
-    const Eigen::Vector2d axes = fit->rim.SemiAxes();
     const double contrast =
         field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));
-    return FoundRim{*fit,
-                    Evidence(fit->support, judged_radius, axes[0] / axes[1], contrast),
-                    UnlikeView(fit->rim, search_)};
+    return FoundRim{
+        *fit,
+        SupportEvidence(*fit, judged_radius, search_.half_lit) + LooksEvidence(fit->rim, contrast),
+        UnlikeView(fit->rim, search_)};
   }
 
   // The fit may have stopped at a rim that shares only an arc with the head's: starts on all sides
@@ -205,7 +224,7 @@ std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
   for (const std::vector<FoundRim>& octave : rims)
     all.insert(all.end(), octave.begin(), octave.end());
   std::stable_sort(all.begin(), all.end(), IsPreferred);
-  std::erase_if(all, [](const FoundRim& found) { return found.fit.third_support < kLeastThird; });
+  std::erase_if(all, [&](const FoundRim& found) { return IsOneSided(found, search); });
   return all;
 }
 

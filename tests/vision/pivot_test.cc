@@ -6,6 +6,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "measured_blades.h"
 #include "vision/consistency.h"
@@ -80,6 +82,35 @@ TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther)
   Screw in_line = HeadAside(measured, kFaintHead - 1);
   in_line.center_px = measured.truth.screw_px - kFarPx * measured.truth.axis_px;
   EXPECT_GT(off_px(in_line), 0.8 * kFarPx);  // the edges have nothing against it
+}
+
+// The head gone, but for a bright arc of a rim about a place, as a low light leaves of it.
+cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px) {
+  constexpr double kRadiusPx = 10, kHeadPx = 14, kArcDeg = 215, kMetal = 150, kGlint = 230;
+  constexpr int kFractionBits = 6;
+  cv::Mat grey = measured.photo.grey().clone();
+  const auto fixed = [](double px) {
+    return static_cast<int>(std::lround(std::ldexp(px, kFractionBits)));
+  };
+  const auto point = [&](const Vector2d& at) { return cv::Point(fixed(at.x()), fixed(at.y())); };
+  const int line = cv::LINE_AA, shift = kFractionBits;
+  cv::circle(grey, point(measured.truth.screw_px), fixed(kHeadPx), kMetal, cv::FILLED, line, shift);
+  const cv::Size axes(fixed(kRadiusPx), fixed(kRadiusPx));
+  cv::ellipse(grey, point(center_px), axes, 0, 0, kArcDeg, kGlint, 2, line, shift);
+  return grey;
+}
+
+TEST(FindPivot, SeesAHalfLitHeadAboutWhichTheEdgesMirrorEachOther) {
+  constexpr double kClosePx = 1.5, kAsidePx = 8;
+  const Measured measured{SceneWithMarkers()};
+  const PivotSearch search{
+      measured.scene, PairOf(measured.blades.upper, measured.blades.lower), std::nullopt};
+  const Vector2d head = measured.truth.screw_px, axis = measured.truth.axis_px;
+  const Pivot pivot = FindPivot(WithArcForHead(measured, head), measured.scale, search);
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+  const Vector2d aside = head + kAsidePx * Vector2d(-axis.y(), axis.x());
+  EXPECT_EQ(FindPivot(WithArcForHead(measured, aside), measured.scale, search).source, "geometry");
 }
 
 TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {

@@ -233,10 +233,14 @@ cv::Mat Bars(std::uint32_t seed, int side) {
 }
 
 int CountFound(const std::vector<cv::Mat>& pictures, double radius) {
+  constexpr double kClear = 10;  // of half-lit rims
   int found = 0;
   for (const cv::Mat& grey : pictures) {
-    const Vector2d middle(grey.cols / 2.0, grey.rows / 2.0);
-    if (FindScrew(grey, SrgbToneCurve(), SearchAround(middle, radius))) ++found;
+    ScrewSearch search = SearchAround({grey.cols / 2.0, grey.rows / 2.0}, radius);
+    if (FindScrew(grey, SrgbToneCurve(), search)) ++found;
+    search.half_lit = true;
+    search.least_evidence = kClear;
+    if (FindScrew(grey, SrgbToneCurve(), search)) ++found;
   }
   return found;
 }
@@ -256,6 +260,45 @@ TEST(FindScrew, SeesNoScrewWhereThereIsNone) {
     EXPECT_EQ(CountFound(brushed, radius), 0) << "brushed plate, radius " << radius;
     EXPECT_EQ(CountFound(bars, radius), 0) << "crossing bars, radius " << radius;
   }
+}
+
+// Plate without its head in a sector of that width about the middle.
+void HideSector(const HeadSpec& head, double middle_rad, double width_rad, cv::Mat* grey) {
+  HeadSpec bare = head;
+  bare.disc = bare.groove = bare.slot = 0;
+  const cv::Mat plate = RenderHead(bare);
+  const Vector2d middle(std::cos(middle_rad), std::sin(middle_rad));
+  for (int y = 0; y < grey->rows; ++y) {
+    for (int x = 0; x < grey->cols; ++x) {
+      const Vector2d from_center = Vector2d(x, y) - head.center_px;
+      const bool hidden = middle.dot(from_center) > std::cos(width_rad / 2) * from_center.norm();
+      if (hidden) grey->at<uchar>(y, x) = plate.at<uchar>(y, x);
+    }
+  }
+}
+
+TEST(FindScrew, AHalfLitHeadIsSeenWhereOneIsAskedFor) {
+  constexpr double kClear = 10, kHidden = 0.8 * std::numbers::pi;
+  constexpr double kClosePx = 1, kSigmas = 4;
+  int usual = 0;
+  for (const Look look : {Look::kDisc, Look::kGroove, Look::kRing}) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+      const HeadSpec head = Dressed(RandomHead(20, seed), look);
+      cv::Mat grey = RenderHead(head);
+      HideSector(head, seed, kHidden, &grey);
+      ScrewSearch search = SearchAround(head.center_px + Vector2d(3, -2), 20);
+      search.least_evidence = kClear;
+      if (FindScrew(grey, SrgbToneCurve(), search)) ++usual;
+      search.half_lit = true;
+      const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+      ASSERT_TRUE(screw) << "seed " << seed;
+      const Vector2d off = screw->center_px - head.center_px;
+      EXPECT_LT(off.norm(), kClosePx) << "seed " << seed;
+      EXPECT_LT(off.dot(screw->covariance_px2.inverse() * off), kSigmas * kSigmas)
+          << "seed " << seed;
+    }
+  }
+  EXPECT_LE(usual, 3);
 }
 
 // A rounded tip is a rim on one side only.
