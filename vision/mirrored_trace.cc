@@ -127,13 +127,16 @@ struct Support {
 Support SupportOf(const MirrorView& view,
                   const Trace& trace,
                   const LocatedBlade& inner,
+                  const LocatedBlade& other,
                   const StepTest& test) {
-  // Nearer to the line that was found, that line would be seen again; and no part decides alone.
-  constexpr double kClearOfInner = 3.5, kLeast = -1, kMost = 8, kSpeaks = 1;
+  // Nearer to a line that was found, that line would be seen again; beyond the other one lies the
+  // other blade; and no part decides alone.
+  constexpr double kClearPx = 3.5, kLeast = -1, kMost = 8, kSpeaks = 1;
   Support support;
   for (int index = 0; index < kParts; ++index) {
     const Part part = PartOf(trace.size(), index);
-    if (OutsideBy(inner, trace[(part.first + part.end) / 2].trend_px) < kClearOfInner) continue;
+    const Vector2d middle = trace[(part.first + part.end) / 2].trend_px;
+    if (std::min(OutsideBy(inner, middle), OutsideBy(other, middle)) < kClearPx) continue;
     const double log_odds = test.LogOdds(ProfileAcross(view, trace, part));
     support.log_odds += std::clamp(log_odds, kLeast, kMost);
     if (log_odds > kSpeaks) ++support.parts;
@@ -195,7 +198,7 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
   };
   std::vector<Support> supports;
   for (int step = -farthest; step <= farthest; ++step)
-    supports.push_back(SupportOf(view, MirroredEdge(other, turned(step)), inner, test));
+    supports.push_back(SupportOf(view, MirroredEdge(other, turned(step)), inner, other, test));
   const auto best = std::max_element(
       supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
   const double least = std::max(kLeastOdds, kClearly * NextBest(supports, best - supports.begin()));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -56,6 +57,53 @@ TEST(FindMirroredTrace, FindsNoneOnABareSheet) {
   SceneSpec bare = SceneWithMarkers();
   bare.with_scissors = false;
   EXPECT_FALSE(FindIn(SceneWithMarkers(), RenderScene(bare).bgr).any);
+}
+
+// A step in the light along a course, dark on the far side of its normals.
+void DrawStep(const std::vector<LocatedEdgePoint>& course, cv::Mat* picture) {
+  constexpr double kDepthPx = 12, kStepPx = 0.5;
+  for (std::size_t i = 1; i < course.size(); ++i) {
+    const Vector2d along = course[i].trend_px - course[i - 1].trend_px;
+    for (double t = 0; t < 1; t += kStepPx / along.norm()) {
+      for (double depth = 0; depth < kDepthPx; depth += kStepPx) {
+        const Vector2d at = course[i - 1].trend_px + t * along - depth * course[i].normal;
+        picture->at<cv::Vec3b>(cv::Point(static_cast<int>(std::lround(at.x())),
+                                         static_cast<int>(std::lround(at.y())))) = {90, 90, 90};
+      }
+    }
+  }
+}
+
+TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
+  constexpr double kBeyondRad = 0.06;
+  const Measured measured{SceneWithMarkers()};
+  const LocatedBlade &upper = measured.blades.upper, &lower = measured.blades.lower;
+  const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+  // The lower edge about the line turned.
+  const auto drawn_at = [&](double turn_rad) {
+    const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
+    std::vector<LocatedEdgePoint> course = lower.used;
+    for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
+    return course;
+  };
+  const Vector2d end = lower.used.back().trend_px, pivot_px = line.map.ImageFromPlane(line.pivot);
+  const double opening_rad = measured.truth.theta_rad;
+  const auto off_px = [&](double turn_rad) {
+    return (drawn_at(turn_rad).back().trend_px - end).norm();
+  };
+  const double toward = off_px(0.1) < off_px(-0.1) ? 1 : -1;
+  const double difference_px = opening_rad * (end - pivot_px).norm();
+  SceneSpec bare = SceneWithMarkers();
+  bare.with_scissors = false;
+  const auto finds = [&](double turn_rad) {
+    cv::Mat picture = RenderScene(bare).bgr;
+    DrawStep(drawn_at(toward * turn_rad), &picture);
+    Measured seen{SceneWithMarkers()};
+    seen.photo = Measured::PhotoOf(picture);
+    return FindMirroredTrace(seen.View(), upper, lower, line, difference_px).has_value();
+  };
+  EXPECT_TRUE(finds(0.25 * opening_rad));  // halfway between the edges
+  EXPECT_FALSE(finds(0.5 * (opening_rad + kBeyondRad)));
 }
 
 }  // namespace
