@@ -194,18 +194,23 @@ double AsymmetryAbout(const Screw& screw, const ScaleResult& scale, const PivotS
   return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
 }
 
-// Where no head was seen: one all about the overlap, a wider one, a half-lit one. Necks of members
-// are round, too, but less so than heads; about few of them the edges mirror each other.
+// Where no head was seen: one all about the overlap, if faint then with a slot; a wider one; a
+// half-lit one. Necks of members are round, too, but less so than heads; about few of them the
+// edges mirror each other.
 std::optional<Screw> LookFurther(const cv::Mat& grey,
                                  const ScaleResult& scale,
                                  const PivotSearch& known,
                                  const Pivot& geometry) {
-  constexpr double kUnmistakable = 25;
+  constexpr double kUnmistakable = 25, kFaintSlotted = 5;
   const auto mirrors = [&](const Screw& screw) {
     return !AreSuspect(AsymmetryAbout(screw, scale, known));
   };
-  const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintHead));
-  if (usual) return usual;
+  const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintSlotted));
+  if (usual) {
+    const bool slotted = usual->slot && usual->slot->ends_seen;
+    const bool unlike = scale.sheet && !mirrors(*usual);  // a slanted view parts edges as well
+    if (usual->evidence > kFaintHead || (slotted && !unlike)) return usual;
+  }
   const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, known.scene));
   if (wide && (wide->evidence > kUnmistakable || mirrors(*wide))) return wide;
   const auto half = FindScrew(grey, scale.tone, SearchHalfLit(scale, known.scene, geometry));

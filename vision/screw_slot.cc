@@ -23,7 +23,7 @@ constexpr double kHalfWidth = 0.1;
 constexpr double kReach = 0.7;        // along: clear of the rim
 constexpr double kMostOff = 0.2;      // of the slot from where the rim's fit puts the centre
 constexpr int kSections = 9;          // along the slot
-constexpr double kLeastRadiusPx = 8;  // smaller heads show no slot that could be told from a speck
+constexpr double kLeastRadiusPx = 6;  // smaller heads show no slot that could be told from a speck
 
 // The head in its own frame: (0, 0) its centre, 1 its radius, x along `along`.
 class HeadFrame {

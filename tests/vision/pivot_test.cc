@@ -55,6 +55,25 @@ TEST(FindPivot, SeesAHeadAsWideAsTheWaistSeems) {
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
 }
 
+TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
+  constexpr double kClosePx = 1.5, kAsidePx = 10;
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.screw_radius_mm = 1.65;
+  spec.sensor.noise_grey = 1;
+  Measured measured{spec};
+  const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
+  const auto found = [&] {
+    const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+    return FindPivot(measured.photo.grey(), measured.scale, {scene, edges, std::nullopt});
+  };
+  const Pivot pivot = found();
+  ASSERT_TRUE(pivot.screw);
+  EXPECT_LT(pivot.screw->evidence, kFaintHead);
+  EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+  measured.Misplace(&measured.blades.upper, kAsidePx);
+  EXPECT_EQ(found().source, "geometry");
+}
+
 // A rim seen where none is, aside of the line about which the blades mirror each other.
 Screw HeadAside(const Measured& measured, double evidence) {
   constexpr double kAsidePx = 20, kRadiusPx = 10;

@@ -66,17 +66,18 @@ TEST(FindSlot, KnowsTheCentreBetterAcrossTheSlotThanAlongIt) {
 }
 
 TEST(FindSlot, TakesNoStreakOfBrushedMetalForOne) {
-  for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 120; ++seed) {
     HeadSpec head = RandomHead(seed);
     if (seed % 3 == 1) head.groove = -0.2;
     if (seed % 3 == 2) head.groove = 0.3;
+    if (seed > 60) head.semi_major_px = head.semi_minor_px = 6.5;
     EXPECT_FALSE(FindAside(head)) << seed;
   }
 }
 
 TEST(FindSlot, IsNotSoughtInSpecks) {
   HeadSpec head = RandomHead(3);
-  head.semi_major_px = head.semi_minor_px = 6;
+  head.semi_major_px = head.semi_minor_px = 5;
   head.slot = -0.2;
   EXPECT_FALSE(FindAside(head));
 }
