@@ -191,14 +191,19 @@ Pivot LocatePivot(const Photo& photo,
       scene, PairOf(parts.blades.upper, parts.blades.lower), hints.pivot_px, parts.at_joint};
   Pivot pivot = FindPivot(photo.grey(), scale, search);
   if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
-  RefuseInconsistent(pivot, parts.blades);
   log->Ran("pivot", pivot.source);
   return pivot;
 }
 
-void LogMoved(const Blades& blades, StageLog* log) {
-  if (!blades.upper.moved.empty()) log->Ran("upper-edge-again", blades.upper.moved);
-  if (!blades.lower.moved.empty()) log->Ran("lower-edge-again", blades.lower.moved);
+// Edges that contradict each other or the pivot: one of them may have been taken elsewhere, where
+// the view is known.
+void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* log) {
+  if (!KnowsMirror(view, *pivot)) RefuseInconsistent(*pivot, *blades);
+  RelocateUnlikeEdges(view, pivot, blades);
+  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
+  RefuseInconsistent(*pivot, *blades);
+  if (!blades->upper.moved.empty()) log->Ran("upper-edge-again", blades->upper.moved);
+  if (!blades->lower.moved.empty()) log->Ran("lower-edge-again", blades->lower.moved);
 }
 
 // Where what was taken for the screw is none, the blades alone say where they turn.
@@ -261,8 +266,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
   Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
   const MirrorView view{photo, scale, scene};
-  RelocateUnlikeEdges(view, &pivot, &parts.blades);
-  LogMoved(parts.blades, &log);
+  Reconcile(view, &pivot, &parts.blades, &log);
   DropFalseHead(scale, scene, parts.blades, &pivot, &log);
   RefuseUnlikeEdges(pivot, scale);
   CutWhereEdgesPart(view, pivot, &parts.blades);

@@ -164,7 +164,7 @@ ScrewSearch SearchHalfLit(const ScaleResult& scale, const Scene& scene, const Pi
 }
 
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
-// nearer, so that fewer other arcs compete, and further back and forth. The clearest counts.
+// nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const cv::Mat& grey,
                                   const ScaleResult& scale,
                                   const PivotSearch& known,
@@ -173,8 +173,7 @@ std::optional<Screw> LookForScrew(const cv::Mat& grey,
   std::optional<Screw> clearest = known.at_joint;
   for (const ScrewSearch& search :
        {SearchForHead(scale, scene, guess_px, 0.35 * scene.shank_width_px),
-        SearchOverlap(scale, scene, 0.25),
-        SearchOverlap(scale, scene, 0.75)}) {
+        SearchOverlap(scale, scene, 0.25)}) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
     const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
@@ -194,9 +193,9 @@ double AsymmetryAbout(const Screw& screw, const ScaleResult& scale, const PivotS
   return EdgeAsymmetry(known.edges, FootBelow(screw, scale, known.scene).point_px);
 }
 
-// Where no head was seen: one all about the overlap, if faint then with a slot; a wider one; a
-// half-lit one. Necks of members are round, too, but less so than heads; about few of them the
-// edges mirror each other.
+// Where no head was seen: one further forward; one all about the overlap, if faint then with a
+// slot; a wider one; a half-lit one. Necks of members and engraved marks are round, too, but less
+// so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const cv::Mat& grey,
                                  const ScaleResult& scale,
                                  const PivotSearch& known,
@@ -205,6 +204,8 @@ std::optional<Screw> LookFurther(const cv::Mat& grey,
   const auto mirrors = [&](const Screw& screw) {
     return !AreSuspect(AsymmetryAbout(screw, scale, known));
   };
+  const auto forward = FindScrew(grey, scale.tone, SearchOverlap(scale, known.scene, 0.75));
+  if (forward && (forward->evidence > kBeyondDoubt || mirrors(*forward))) return forward;
   const auto usual = FindScrew(grey, scale.tone, SearchAllAbout(scale, known.scene, kFaintSlotted));
   if (usual) {
     const bool slotted = usual->slot && usual->slot->ends_seen;
@@ -277,6 +278,10 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
   }
   Compare(search, mirror, &pivot);
   return pivot;
+}
+
+void CompareEdges(const Scene& scene, const EdgePair& edges, Pivot* pivot) {
+  Compare({scene, edges, std::nullopt}, MirrorOf(edges), pivot);
 }
 
 Pivot PivotByBlades(const Scene& scene, const EdgePair& edges) {

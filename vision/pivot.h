@@ -53,6 +53,9 @@ struct PivotSearch {
                               const ScaleResult& scale,
                               const PivotSearch& search);
 
+// What the edges say of a pivot, once more, as one of them was located anew.
+void CompareEdges(const Scene& scene, const EdgePair& edges, Pivot* pivot);
+
 // By the two edges and the silhouette alone, as where no head is seen.
 [[nodiscard]] Pivot PivotByBlades(const Scene& scene, const EdgePair& edges);
 

@@ -11,6 +11,7 @@
 
 #include "measured_blades.h"
 #include "vision/consistency.h"
+#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -161,6 +162,22 @@ TEST(FindPivot, SeesASlotWhereItIsCut) {
   const double off_px = (pivot.screw->slot->center_px - measured.truth.screw_px).norm();
   EXPECT_NEAR(off_px / pivot.screw->semi_major_px, spec.scissors.slot_off.norm(), kClose);
   EXPECT_GT((measured.truth.screw_px - TruthOf(SceneWithMarkers()).screw_px).norm(), 0.2);
+}
+
+TEST(CompareEdges, TellsAClampsJawsFromEdgesThatPassByThePivot) {
+  constexpr double kBevelPx = 16;
+  Measured measured{SceneWithMarkers()};
+  const auto compare = [&] {
+    const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+    CompareEdges(measured.scene, edges, &measured.pivot);
+    RefuseInconsistent(measured.pivot, measured.blades);
+  };
+  const LocatedBlade edge = measured.blades.upper;
+  measured.Misplace(&measured.blades.upper, -kBevelPx);
+  EXPECT_THROW(compare(), Refused);
+  measured.blades.upper = edge;
+  EXPECT_NO_THROW(compare());
+  EXPECT_TRUE(AreAlike(measured.pivot.asymmetry));
 }
 
 TEST(PivotByBlades, TakesNoNoticeOfTheScrewAndSaysHowVagueThatIs) {
