@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "vision/pivot.h"
+#include "vision/head_place.h"
 #include "vision/scale.h"
 
 namespace bladecurve {

@@ -13,6 +13,7 @@
 #include "vision/edge_parting.h"
 #include "vision/edge_relocation.h"
 #include "vision/end_pair.h"
+#include "vision/head_search.h"
 #include "vision/located_blade.h"
 #include "vision/mirror_line.h"
 #include "vision/opening.h"

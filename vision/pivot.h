@@ -15,10 +15,6 @@
 
 namespace bladecurve {
 
-// The rim of a head stands above the plane of the edges by the thickness of a blade and of the
-// head: by how much, and its standard uncertainty.
-inline constexpr double kHeadMm = 2.0, kHeadSigmaMm = 0.6;
-
 // The point about which the blades turn; stored pixels.
 struct Pivot {
   Eigen::Vector2d point_px;
@@ -38,17 +34,8 @@ struct PivotSearch {
   std::optional<Screw> at_joint = std::nullopt;  // what LookAtJoint found
 };
 
-// The head where joints mostly have theirs: from a third to two thirds of the way from the shanks'
-// crotch to the blades'. Needs no edges.
-[[nodiscard]] std::optional<Screw> LookAtJoint(const cv::Mat& grey,
-                                               const ScaleResult& scale,
-                                               const Scene& scene);
-
 // In the plane of the edges: below the screw's head if that is seen; else on the line about which
 // the two edges mirror each other, where the members' overlap and the edges' usual overlap put it.
-// How obliquely a head is seen the markers say, where there are any. Where a faint head leaves the
-// edges far unlike, one beyond doubt elsewhere is taken about which they mirror each other; where
-// none is seen, also a half-lit one about which they do.
 [[nodiscard]] Pivot FindPivot(const cv::Mat& grey,
                               const ScaleResult& scale,
                               const PivotSearch& search);

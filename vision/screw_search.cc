@@ -186,7 +186,8 @@ class Octave {
     });
     FoundRim best = found;
     for (const std::optional<FoundRim>& rim : judged) {
-      if (rim && IsPreferred(*rim, best)) best = *rim;
+      const bool one_sided = rim && IsOneSided(*rim, search_) && !IsOneSided(found, search_);
+      if (rim && !one_sided && IsPreferred(*rim, best)) best = *rim;
     }
     return best;
   }

@@ -16,7 +16,7 @@
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
 #include "tests/samples/program_run.h"
-#include "vision/pivot.h"
+#include "vision/head_place.h"
 #include "vision/render.h"
 
 namespace bladecurve {

@@ -11,6 +11,7 @@
 
 #include "measured_blades.h"
 #include "vision/consistency.h"
+#include "vision/head_search.h"
 #include "vision/refused.h"
 
 namespace bladecurve {

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/head_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "vision/consistency.h"
+#include "vision/head_place.h"
+#include "vision/parallel.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
+double Credence(const Screw& screw) {
+  constexpr double kUsualFlattening = 0.05;
+  const double sigmas = (1 - screw.semi_minor_px / screw.semi_major_px) / kUsualFlattening;
+  return screw.evidence - 0.5 * sigmas * sigmas;
+}
+
+// Heads of screws and rivets are a quarter to nine tenths of the shank wide; engraved marks are
+// smaller.
+ScrewSearch SearchForHead(const ScaleResult& scale,
+                          const Scene& scene,
+                          const Vector2d& guess_px,
+                          double radius_px) {
+  ScrewSearch search;
+  if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
+  search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
+  search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
+  search.guess_px = guess_px;
+  search.radius_px = radius_px;
+  return search;
+}
+
+// About a place on the overlap, as a share of the way from the shanks' crotch to the blades'.
+ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double share) {
+  const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
+  const double radius_px =
+      std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
+  return SearchForHead(scale, scene, scene.shank_crotch_px + share * overlap, radius_px);
+}
+
+// All about the overlap, for heads beyond doubt: crotches that shadows fill put it elsewhere.
+ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double least_evidence) {
+  constexpr double kOfOverlap = 0.6;
+  const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
+  ScrewSearch search = SearchForHead(
+      scale, scene, scene.shank_crotch_px + 0.5 * overlap, kOfOverlap * overlap.norm());
+  search.least_evidence = least_evidence;
+  return search;
+}
+
+// The same for heads wider than usual: a waist that was measured across one shank alone is no wider
+// than the head.
+ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kWidest = 0.6;   // of the members, a head's radius
+  constexpr double kOverlap = 0.8;  // of the widest usual one: between the two none is lost
+  ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
+  const double members_px =
+      std::max({scene.shank_width_px, scene.left.width_px, scene.right.width_px});
+  search.min_semi_axis_px = kOverlap * search.max_semi_axis_px;
+  search.max_semi_axis_px = std::max(search.max_semi_axis_px, kWidest * members_px);
+  return search;
+}
+
+// A half-lit head where geometry puts the pivot: nearly all of two thirds of its rim.
+ScrewSearch SearchHalfLit(const HeadSearch& known) {
+  constexpr double kSigmas = 2;
+  constexpr double kClear = 10;  // elsewhere reach 8.6
+  const Eigen::Matrix2d& covariance = known.by_geometry.covariance_px2;
+  const double sigma_px = std::sqrt(covariance.eigenvalues().real().maxCoeff());
+  ScrewSearch search =
+      SearchForHead(known.scale,
+                    known.scene,
+                    known.by_geometry.point_px,
+                    std::clamp(kSigmas * sigma_px, 3.0, 0.5 * known.scene.shank_width_px));
+  search.half_lit = true;
+  search.least_evidence = kClear;
+  return search;
+}
+
+// What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
+// nearer, so that fewer other arcs compete, and further back. The clearest counts.
+std::optional<Screw> LookForScrew(const HeadSearch& known) {
+  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
+  std::optional<Screw> clearest = at_joint;
+  for (const ScrewSearch& search :
+       {SearchForHead(scale, scene, by_geometry.point_px, 0.35 * scene.shank_width_px),
+        SearchOverlap(scale, scene, 0.25)}) {
+    if (clearest && clearest->evidence > kBeyondDoubt) break;
+    const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
+    if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
+  }
+  return clearest;
+}
+
+// What the edges say of a head: see EdgeAsymmetry.
+double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
+  return EdgeAsymmetry(known.edges, FootBelow(screw, known.scale, known.scene).point_px);
+}
+
+// What is seen in seven discs that cover the search: in each, a head is judged by its own
+// surroundings, and by as many candidates as in all of it.
+std::vector<std::optional<Screw>> FindPieceByPiece(const cv::Mat& grey,
+                                                   const ToneCurve& tone,
+                                                   const ScrewSearch& search) {
+  constexpr int kAround = 6;
+  const double half_px = 0.5 * search.radius_px, apart_px = std::sqrt(3.0) * half_px;
+  return ParallelMap(kAround + 1, [&](int i) {
+    const double angle = 2 * std::numbers::pi * i / kAround;
+    ScrewSearch piece = search;
+    piece.radius_px = half_px;
+    if (i < kAround) piece.guess_px += apart_px * Vector2d(std::cos(angle), std::sin(angle));
+    return FindScrew(grey, tone, piece);
+  });
+}
+
+// Where no head was seen: one further forward; one all about the overlap, if faint then with a
+// slot; a wider one; a half-lit one. Necks of members and engraved marks are round, too, but less
+// so than heads; about few of them the edges mirror each other.
+std::optional<Screw> LookFurther(const HeadSearch& known) {
+  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
+  constexpr double kUnmistakable = 25, kFaintSlotted = 5;
+  const auto mirrors = [&](const Screw& screw) {
+    return !AreSuspect(AsymmetryAbout(screw, known));
+  };
+  const auto forward = FindScrew(grey, scale.tone, SearchOverlap(scale, scene, 0.75));
+  if (forward && (forward->evidence > kBeyondDoubt || mirrors(*forward))) return forward;
+  const auto is_sure = [&](const Screw& screw) {
+    const bool slotted = screw.slot && screw.slot->ends_seen;
+    const bool unlike = scale.sheet && !mirrors(screw);  // a slanted view parts edges as well
+    return screw.evidence > kFaintHead || (slotted && !unlike);
+  };
+  std::optional<Screw> clearest;
+  for (const std::optional<Screw>& screw :
+       FindPieceByPiece(grey, scale.tone, SearchAllAbout(scale, scene, kFaintSlotted))) {
+    if (!screw || !is_sure(*screw)) continue;
+    if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
+  }
+  if (clearest) return clearest;
+  const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, scene));
+  if (wide && (wide->evidence > kUnmistakable || mirrors(*wide))) return wide;
+  const auto half = FindScrew(grey, scale.tone, SearchHalfLit(known));
+  return half && mirrors(*half) ? half : std::nullopt;
+}
+
+// A head all about the overlap that outdoes a faint one about which the edges are no mirror images
+// by far: one about which they are, beyond doubt.
+Screw LessFaint(const HeadSearch& known, const Screw& seen) {
+  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
+  if (!IsFaint(seen) || !AreFarUnlike(AsymmetryAbout(seen, known))) return seen;
+  const std::optional<Screw> other =
+      FindScrew(grey, scale.tone, SearchAllAbout(scale, scene, kBeyondDoubt));
+  return other && !AreSuspect(AsymmetryAbout(*other, known)) ? *other : seen;
+}
+
+}  // namespace
+
+std::optional<Screw> LookAtJoint(const cv::Mat& grey,
+                                 const ScaleResult& scale,
+                                 const Scene& scene) {
+  return FindScrew(grey, scale.tone, SearchOverlap(scale, scene, 0.5));
+}
+
+std::optional<Screw> FindHead(const HeadSearch& search) {
+  const std::optional<Screw> seen = LookForScrew(search);
+  return seen ? LessFaint(search, *seen) : LookFurther(search);
+}
+
+}  // namespace bladecurve
