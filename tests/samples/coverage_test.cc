@@ -80,5 +80,28 @@ TEST(ValidateScene, IntervalsAreNotMuchTooWide) {
   EXPECT_GE(Percentile(pivot_sigmas, 1), 0.8);  // largest of 16
 }
 
+// Scenes of seed 7 that were once refused or measured about a wrong pivot.
+struct HardScene {
+  int number;
+  const char* what;
+};
+constexpr HardScene kHardScenes[] = {
+    {276, "a faint head among clutter, off the overlap's middle"},
+    {861, "a head further forward than most"},
+    {884, "a bevel's inner border, by which the edges meet at the pivot like a clamp's jaws"},
+};
+
+TEST(ValidateScene, MeasuresHardScenes) {
+  constexpr std::uint64_t kHardSeed = 7;
+  constexpr double kClosePx = 0.5, kCloseDeg = 0.2;
+  for (const HardScene& hard : kHardScenes) {
+    const ValidationRow row = ValidateScene(
+        MakeValidationScene(hard.number, kHardSeed, Difficulty::kStandard), ProcessFolder());
+    ASSERT_TRUE(row.measured()) << hard.what << ": " << row.detail;
+    EXPECT_LT(row.Of(Quantity::kPivot).size, kClosePx) << hard.what;
+    EXPECT_LT(row.Of(Quantity::kTheta).size, kCloseDeg) << hard.what;
+  }
+}
+
 }  // namespace
 }  // namespace bladecurve
