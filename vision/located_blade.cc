@@ -101,6 +101,10 @@ double MedianSigma(const std::vector<LocatedEdgePoint>& points) {
   return Median(std::move(sigmas));
 }
 
+double EdgeSigmaPx(const LocatedBlade& blade) {
+  return std::hypot(MedianSigma(blade.used), blade.edge.common_sigma_px);
+}
+
 std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
   std::vector<LocatedEdgePoint> points = lower.used;
   const double own_px = lower.edge.common_sigma_px;

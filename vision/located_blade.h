@@ -49,6 +49,8 @@ void KeepFree(const Scene& scene, LocatedBlade* blade);
 
 // NaN for no points.
 [[nodiscard]] double MedianSigma(const std::vector<LocatedEdgePoint>& points);
+// The same of a blade's edge, what its points have in common counted.
+[[nodiscard]] double EdgeSigmaPx(const LocatedBlade& blade);
 
 // The lower edge's points as the fit is to take them: it tells what they share from nothing but
 // what both edges share. Where the lower edge is more doubtful than the upper one, its points

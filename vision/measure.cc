@@ -21,6 +21,7 @@
 #include "vision/pivot.h"
 #include "vision/pivot_debug.h"
 #include "vision/scene.h"
+#include "vision/warnings.h"
 
 namespace bladecurve {
 namespace {
@@ -119,27 +120,6 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
   return edges;
 }
 
-void CollectWarnings(const Scene& scene,
-                     const ScaleResult& scale,
-                     const PlaneMap& map,
-                     const Pivot& pivot,
-                     const Blades& blades,
-                     std::vector<std::string>* warnings) {
-  constexpr double kSeveralTransitions = 0.5;
-  constexpr double kSlanted = 0.04;  // where nobody knows the tilt of the view
-  *warnings = scene.warnings;
-  warnings->insert(warnings->end(), map.warnings().begin(), map.warnings().end());
-  if (pivot.source == "geometry") warnings->push_back("pivot_not_seen");
-  const bool asymmetric =
-      scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted;
-  if (asymmetric) warnings->push_back("blades_asymmetric");
-  if (blades.ends_contradict) warnings->push_back("ends_unlike");
-  if (blades.upper.edge.ambiguity > kSeveralTransitions)
-    warnings->push_back("upper_edge_ambiguous");
-  if (blades.lower.edge.ambiguity > kSeveralTransitions)
-    warnings->push_back("lower_edge_ambiguous");
-}
-
 Blades LocateAndTrim(const Photo& photo,
                      const ScaleResult& scale,
                      const Scene& scene,
@@ -235,9 +215,8 @@ void FillPixels(const Photo& photo,
   }
   for (const LocatedEdgePoint& p : blades.lower.used)
     result->lower_edge_px.push_back(photo.DisplayedFromStored(p.trend_px));
-  const LocatedBlade& upper = blades.upper;
-  result->upper_edge_sigma_px = std::hypot(MedianSigma(upper.used), upper.edge.common_sigma_px);
-  result->upper_end_px = photo.DisplayedFromStored(upper.end.point_px);
+  result->upper_edge_sigma_px = EdgeSigmaPx(blades.upper);
+  result->upper_end_px = photo.DisplayedFromStored(blades.upper.end.point_px);
   result->lower_end_px = photo.DisplayedFromStored(blades.lower.end.point_px);
 }
 
@@ -291,7 +270,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.edges.photo = result.file;
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
-  CollectWarnings(scene, scale, map, pivot, blades, &result.warnings);
+  result.warnings = WarningsOf(scene, scale, map, pivot, blades);
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();

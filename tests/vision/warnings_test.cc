@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/warnings.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "measured_blades.h"
+
+namespace bladecurve {
+namespace {
+
+using testing::Measured;
+using testing::SceneWithMarkers;
+
+bool Warns(const Measured& measured, const char* doubt) {
+  const std::vector<std::string> warnings = WarningsOf(
+      measured.scene, measured.scale, *measured.scale.map, measured.pivot, measured.blades);
+  return std::find(warnings.begin(), warnings.end(), doubt) != warnings.end();
+}
+
+TEST(WarningsOf, DoubtsAPivotThatIsNotSeenOrHardlySeen) {
+  Measured measured{SceneWithMarkers()};
+  Screw screw;
+  screw.center_px = measured.truth.screw_px;
+  screw.covariance_px2.setIdentity();
+  screw.evidence = kFaintHead + 1;
+  measured.pivot.screw = screw;
+  EXPECT_FALSE(Warns(measured, "pivot_faint"));
+  measured.pivot.screw->evidence = kFaintHead - 1;
+  EXPECT_TRUE(Warns(measured, "pivot_faint"));
+  EXPECT_FALSE(Warns(measured, "pivot_not_seen"));
+  measured.pivot.screw->slot = ScrewSlot{screw.center_px, screw.covariance_px2, true};
+  EXPECT_FALSE(Warns(measured, "pivot_faint"));
+  measured.pivot.screw.reset();
+  measured.pivot.source = "geometry";
+  EXPECT_TRUE(Warns(measured, "pivot_not_seen"));
+}
+
+TEST(WarningsOf, DoubtsAnUpperEdgeThatIsKnownToMoreThanAPixelOnly) {
+  Measured measured{SceneWithMarkers()};
+  EXPECT_FALSE(Warns(measured, "upper_edge_vague"));
+  measured.blades.upper.edge.common_sigma_px = 1.1;
+  EXPECT_TRUE(Warns(measured, "upper_edge_vague"));
+  measured.blades.upper.edge.common_sigma_px = 0;
+  for (LocatedEdgePoint& p : measured.blades.upper.used) p.sigma_px = 1.1;
+  EXPECT_TRUE(Warns(measured, "upper_edge_vague"));
+}
+
+TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
+  Measured measured{SceneWithMarkers()};
+  measured.blades.upper.edge.ambiguity = measured.blades.lower.edge.ambiguity = 0.4;
+  EXPECT_FALSE(Warns(measured, "lower_edge_ambiguous"));
+  EXPECT_FALSE(Warns(measured, "blades_asymmetric"));
+  measured.blades.lower.edge.ambiguity = 0.6;
+  EXPECT_TRUE(Warns(measured, "lower_edge_ambiguous"));
+  EXPECT_FALSE(Warns(measured, "upper_edge_ambiguous"));
+  measured.pivot.asymmetry = 0.03;
+  EXPECT_TRUE(Warns(measured, "blades_asymmetric"));
+  measured.scale.sheet.reset();  // a slanted view parts edges as well
+  EXPECT_FALSE(Warns(measured, "blades_asymmetric"));
+}
+
+}  // namespace
+}  // namespace bladecurve

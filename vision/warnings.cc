@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/warnings.h"
+
+#include <cmath>
+
+#include "vision/consistency.h"
+
+namespace bladecurve {
+
+std::vector<std::string> WarningsOf(const Scene& scene,
+                                    const ScaleResult& scale,
+                                    const PlaneMap& map,
+                                    const Pivot& pivot,
+                                    const Blades& blades) {
+  constexpr double kSeveralTransitions = 0.5, kVaguePx = 1;
+  constexpr double kSlanted = 0.04;  // where nobody knows the tilt of the view
+  std::vector<std::string> warnings = scene.warnings;
+  warnings.insert(warnings.end(), map.warnings().begin(), map.warnings().end());
+  const auto warn_if = [&](bool doubtful, const char* doubt) {
+    if (doubtful) warnings.emplace_back(doubt);
+  };
+  warn_if(pivot.source == "geometry", "pivot_not_seen");
+  warn_if(pivot.screw && IsFaint(*pivot.screw), "pivot_faint");
+  warn_if(scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted,
+          "blades_asymmetric");
+  warn_if(blades.ends_contradict, "ends_unlike");
+  warn_if(blades.upper.edge.ambiguity > kSeveralTransitions, "upper_edge_ambiguous");
+  warn_if(blades.lower.edge.ambiguity > kSeveralTransitions, "lower_edge_ambiguous");
+  warn_if(EdgeSigmaPx(blades.upper) > kVaguePx, "upper_edge_vague");
+  return warnings;
+}
+
+}  // namespace bladecurve
