@@ -94,10 +94,9 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
 
-void Replace(const Relocated& found, const char* where, LocatedBlade* blade, Pivot* pivot) {
+void Replace(const Relocated& found, const char* where, LocatedBlade* blade) {
   *blade = found.blade;
   blade->moved = where;
-  pivot->asymmetry = found.asymmetry;
 }
 
 // The upper blade or the lower one, and the other.
@@ -147,32 +146,34 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, cons
 // Of edges that do not mirror each other, neither being seen where the other puts it, the inner one
 // from where the other's mirror image as a whole is seen, too faintly to be located by itself.
 // About a head that may be none, the edges say nothing of each other.
-void TraceInnerOne(const MirrorView& view, const MirrorLine& line, Pivot* pivot, Blades* blades) {
-  if (pivot->screw && IsFaint(*pivot->screw)) return;
-  const auto [inner, other] = OneOf(blades, LiesInwards(blades->upper, *pivot));
-  const Mirroring mirroring{view, *pivot, other, line};
+void TraceInnerOne(const MirrorView& view,
+                   const MirrorLine& line,
+                   const Pivot& pivot,
+                   Blades* blades) {
+  if (pivot.screw && IsFaint(*pivot.screw)) return;
+  const auto [inner, other] = OneOf(blades, LiesInwards(blades->upper, pivot));
+  const Mirroring mirroring{view, pivot, other, line};
   const auto trace = FindMirroredTrace(view, inner, other, line, mirroring.WayPx());
   if (!trace) return;
-  const LocatedEdge edge = Borrowed(other, *trace, *pivot);
+  const LocatedEdge edge = Borrowed(other, *trace, pivot);
   const auto found = UnlessRefused([&] { return mirroring.WithEdge(edge); });
-  if (found)
-    Replace(*found, "the other one mirrored, along a faint step in the light", &inner, pivot);
+  if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
-void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
-  const MirrorLine line = LineBetween(view, *pivot, *blades);
-  const std::optional<Relocated> upper = LookWhereMirrored({view, *pivot, blades->lower, line});
-  const std::optional<Relocated> lower = LookWhereMirrored({view, *pivot, blades->upper, line});
+void RelocateClearerOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  const MirrorLine line = LineBetween(view, pivot, *blades);
+  const std::optional<Relocated> upper = LookWhereMirrored({view, pivot, blades->lower, line});
+  const std::optional<Relocated> lower = LookWhereMirrored({view, pivot, blades->upper, line});
   const bool upper_better =
-      IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, *pivot));
+      IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, pivot));
   const bool lower_better =
-      IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, *pivot));
+      IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, pivot));
   if (upper_better && lower_better) return;
   if (upper_better) {
-    Replace(*upper, kWhereMirrored, &blades->upper, pivot);
+    Replace(*upper, kWhereMirrored, &blades->upper);
   } else if (lower_better) {
-    Replace(*lower, kWhereMirrored, &blades->lower, pivot);
+    Replace(*lower, kWhereMirrored, &blades->lower);
   } else {
     TraceInnerOne(view, line, pivot, blades);
   }
@@ -181,53 +182,58 @@ void RelocateClearerOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
 // Edges that mirror each other but for a little, of which the outer one may be a shadow's border:
 // the place where a shadow begins, where the other one puts it, if that accounts for the
 // difference.
-bool RelocateShadowedOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
+bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLeastPx = 1.5;       // a thinner band cannot be told from blur
   constexpr double kLeastShare = 0.004;  // of the length; blades are ground alike to less
   constexpr double kLeft = 0.3;          // of the difference
   constexpr double kNearest = 1;         // px
   constexpr double kSeen = 0.65;         // ambiguity; what texture shows is seen less
-  const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, *pivot));
-  const Mirroring mirroring{view, *pivot, other, LineBetween(view, *pivot, *blades)};
-  if (std::abs(pivot->asymmetry) < kLeastShare || mirroring.WayPx() < kLeastPx) return false;
+  const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
+  const Mirroring mirroring{view, pivot, other, LineBetween(view, pivot, *blades)};
+  if (std::abs(pivot.asymmetry) < kLeastShare || mirroring.WayPx() < kLeastPx) return false;
   const std::optional<Relocated> found = mirroring.LookInShadow(kNearest);
   if (!found || found->blade.edge.ambiguity > kSeen) return false;
   if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
-  Replace(*found, "inside a shadow, where the other one puts it", &outer, pivot);
-  if (!KnowsMirror(view, *pivot))
+  Replace(*found, "inside a shadow, where the other one puts it", &outer);
+  if (!KnowsMirror(view, pivot))
     outer.edge.ambiguity = std::max(outer.edge.ambiguity, kAssumedAmbiguity);
   return true;
 }
 
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
-void RelocateDoubtfulOne(const MirrorView& view, Pivot* pivot, Blades* blades) {
+void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
   const std::optional<Relocated> found =
-      LookWhereMirrored({view, *pivot, other, LineBetween(view, *pivot, *blades)});
+      LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
   if (!found) return;
   const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
   if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
-    Replace(*found, kWhereMirrored, &doubtful, pivot);
+    Replace(*found, kWhereMirrored, &doubtful);
+}
+
+void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  if (!KnowsMirror(view, pivot)) {
+    // A slanted view may part them as well; but then nothing is seen where they would agree.
+    if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
+    if (!RelocateShadowedOne(view, pivot, blades))
+      TraceInnerOne(view, LineBetween(view, pivot, *blades), pivot, blades);
+    return;
+  }
+  if (RelocateShadowedOne(view, pivot, blades)) return;
+  if (AreSuspect(pivot.asymmetry)) {
+    RelocateClearerOne(view, pivot, blades);
+  } else {
+    RelocateDoubtfulOne(view, pivot, blades);
+  }
 }
 
 }  // namespace
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
-  if (!KnowsMirror(view, *pivot)) {
-    // A slanted view may part them as well; but then nothing is seen where they would agree.
-    if (!AssumesMirror(view, *pivot) || !AreFarUnlike(pivot->asymmetry)) return;
-    if (!RelocateShadowedOne(view, pivot, blades))
-      TraceInnerOne(view, LineBetween(view, *pivot, *blades), pivot, blades);
-    return;
-  }
-  if (RelocateShadowedOne(view, pivot, blades)) return;
-  if (AreSuspect(pivot->asymmetry)) {
-    RelocateClearerOne(view, pivot, blades);
-  } else {
-    RelocateDoubtfulOne(view, pivot, blades);
-  }
+  Relocate(view, *pivot, blades);
+  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
 }
 
 }  // namespace bladecurve

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/pivot_geometry.h"
+#include "vision/along_across.h"
 
 namespace bladecurve {
 namespace {

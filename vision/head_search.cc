@@ -89,13 +89,13 @@ ScrewSearch SearchHalfLit(const HeadSearch& known) {
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const HeadSearch& known) {
-  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
-  std::optional<Screw> clearest = at_joint;
+  const Scene& scene = known.scene;
+  std::optional<Screw> clearest = known.at_joint;
   for (const ScrewSearch& search :
-       {SearchForHead(scale, scene, by_geometry.point_px, 0.35 * scene.shank_width_px),
-        SearchOverlap(scale, scene, 0.25)}) {
+       {SearchForHead(known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
+        SearchOverlap(known.scale, scene, 0.25)}) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
-    const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
+    const std::optional<Screw> screw = known.Find(search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
   return clearest;
@@ -106,10 +106,14 @@ double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
   return EdgeAsymmetry(known.edges, FootBelow(screw, known.scale, known.scene).point_px);
 }
 
+// Whether the edges mirror each other about a head.
+bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
+  return !AreSuspect(AsymmetryAbout(screw, known));
+}
+
 // What is seen in seven discs that cover the search: in each, a head is judged by its own
 // surroundings, and by as many candidates as in all of it.
-std::vector<std::optional<Screw>> FindPieceByPiece(const cv::Mat& grey,
-                                                   const ToneCurve& tone,
+std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
                                                    const ScrewSearch& search) {
   constexpr int kAround = 6;
   const double half_px = 0.5 * search.radius_px, apart_px = std::sqrt(3.0) * half_px;
@@ -118,7 +122,7 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const cv::Mat& grey,
     ScrewSearch piece = search;
     piece.radius_px = half_px;
     if (i < kAround) piece.guess_px += apart_px * Vector2d(std::cos(angle), std::sin(angle));
-    return FindScrew(grey, tone, piece);
+    return known.Find(piece);
   });
 }
 
@@ -126,39 +130,35 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const cv::Mat& grey,
 // slot; a wider one; a half-lit one. Necks of members and engraved marks are round, too, but less
 // so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
-  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
   constexpr double kUnmistakable = 25, kFaintSlotted = 5;
-  const auto mirrors = [&](const Screw& screw) {
-    return !AreSuspect(AsymmetryAbout(screw, known));
-  };
-  const auto forward = FindScrew(grey, scale.tone, SearchOverlap(scale, scene, 0.75));
-  if (forward && (forward->evidence > kBeyondDoubt || mirrors(*forward))) return forward;
+  const auto forward = known.Find(SearchOverlap(known.scale, known.scene, 0.75));
+  if (forward && (forward->evidence > kBeyondDoubt || MirrorAbout(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
     const bool slotted = screw.slot && screw.slot->ends_seen;
-    const bool unlike = scale.sheet && !mirrors(screw);  // a slanted view parts edges as well
+    const bool unlike =
+        known.scale.sheet && !MirrorAbout(screw, known);  // a slanted view parts edges as well
     return screw.evidence > kFaintHead || (slotted && !unlike);
   };
   std::optional<Screw> clearest;
   for (const std::optional<Screw>& screw :
-       FindPieceByPiece(grey, scale.tone, SearchAllAbout(scale, scene, kFaintSlotted))) {
+       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, kFaintSlotted))) {
     if (!screw || !is_sure(*screw)) continue;
     if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
   }
   if (clearest) return clearest;
-  const auto wide = FindScrew(grey, scale.tone, SearchWideHead(scale, scene));
-  if (wide && (wide->evidence > kUnmistakable || mirrors(*wide))) return wide;
-  const auto half = FindScrew(grey, scale.tone, SearchHalfLit(known));
-  return half && mirrors(*half) ? half : std::nullopt;
+  const auto wide = known.Find(SearchWideHead(known.scale, known.scene));
+  if (wide && (wide->evidence > kUnmistakable || MirrorAbout(*wide, known))) return wide;
+  const auto half = known.Find(SearchHalfLit(known));
+  return half && MirrorAbout(*half, known) ? half : std::nullopt;
 }
 
 // A head all about the overlap that outdoes a faint one about which the edges are no mirror images
 // by far: one about which they are, beyond doubt.
 Screw LessFaint(const HeadSearch& known, const Screw& seen) {
-  const auto& [grey, scale, scene, edges, by_geometry, at_joint] = known;
   if (!IsFaint(seen) || !AreFarUnlike(AsymmetryAbout(seen, known))) return seen;
   const std::optional<Screw> other =
-      FindScrew(grey, scale.tone, SearchAllAbout(scale, scene, kBeyondDoubt));
-  return other && !AreSuspect(AsymmetryAbout(*other, known)) ? *other : seen;
+      known.Find(SearchAllAbout(known.scale, known.scene, kBeyondDoubt));
+  return other && MirrorAbout(*other, known) ? *other : seen;
 }
 
 }  // namespace

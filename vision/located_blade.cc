@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "vision/along_across.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -84,8 +85,7 @@ Matrix2d EndCovariance(const LocatedBlade& blade) {
   const Vector2d across = blade.used.back().normal;
   const Vector2d along(-across.y(), across.x());
   const double across_sigma = std::hypot(blade.used.back().sigma_px, blade.edge.common_sigma_px);
-  return blade.end.along_sigma_px * blade.end.along_sigma_px * along * along.transpose() +
-         across_sigma * across_sigma * across * across.transpose();
+  return AlongAcross(along, blade.end.along_sigma_px, across_sigma);
 }
 
 std::vector<Vector2d> PointsOf(const LocatedBlade& blade) {

@@ -181,7 +181,6 @@ Pivot LocatePivot(const Photo& photo,
 void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* log) {
   if (!KnowsMirror(view, *pivot)) RefuseInconsistent(*pivot, *blades);
   RelocateUnlikeEdges(view, pivot, blades);
-  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
   RefuseInconsistent(*pivot, *blades);
   if (!blades->upper.moved.empty()) log->Ran("upper-edge-again", blades->upper.moved);
   if (!blades->lower.moved.empty()) log->Ran("lower-edge-again", blades->lower.moved);

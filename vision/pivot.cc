@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/along_across.h"
 #include "vision/head_place.h"
 #include "vision/head_search.h"
 

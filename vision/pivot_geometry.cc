@@ -78,12 +78,6 @@ double BehindForOverlap(const EdgeMirror& mirror, double k) {
 
 }  // namespace
 
-Eigen::Matrix2d AlongAcross(const Vector2d& along, double along_sigma, double across_sigma) {
-  const Vector2d across(-along.y(), along.x());
-  return along_sigma * along_sigma * along * along.transpose() +
-         across_sigma * across_sigma * across * across.transpose();
-}
-
 EdgeMirror MirrorOf(const EdgePair& edges) {
   constexpr double kParallel = 0.02;  // sine of the angle between the edges
   const Chord a = ProximalChord(edges.left_px);

@@ -9,11 +9,6 @@
 
 namespace bladecurve {
 
-// Covariance with different sigmas along and across a unit direction.
-[[nodiscard]] Eigen::Matrix2d AlongAcross(const Eigen::Vector2d& along,
-                                          double along_sigma,
-                                          double across_sigma);
-
 // The two cutting edges, from the crotch to the distal end.
 struct EdgePair {
   std::vector<Eigen::Vector2d> left_px, right_px;

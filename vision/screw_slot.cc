@@ -10,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "vision/along_across.h"
 #include "vision/bilinear.h"
 #include "vision/robust_statistics.h"
 
@@ -244,11 +245,8 @@ std::optional<ScrewSlot> FindSlot(const cv::Mat& grey,
   const double along_sigma = ends_seen ? kEndsOffCentre : 1;
   const double across_sigma = std::hypot(kSlotOffCentre, line.scatter / std::sqrt(kSections));
   const Vector2d along(std::cos(slot.angle_rad), std::sin(slot.angle_rad));
-  const Vector2d across(-along.y(), along.x());
-  const double square = radius_px * radius_px;
   return ScrewSlot{head.Place(ends_seen ? middle : 0, slot.across),
-                   square * (along_sigma * along_sigma * along * along.transpose() +
-                             across_sigma * across_sigma * across * across.transpose()),
+                   AlongAcross(along, radius_px * along_sigma, radius_px * across_sigma),
                    ends_seen};
 }
 
