@@ -152,7 +152,7 @@ void AddScaleFlags(CLI::App& command, AnalysisFlags* flags) {
     return command.add_option(name, value, help)->group(group);
   };
   add("--card", flags->card, "The printed card in the picture: FILE, or 'default'");
-  add("--marker-mm", flags->marker_mm, "Side of the DICT_4X4_50 markers in the picture, mm");
+  add("--marker-mm", flags->marker_mm, "Side of the DICT_4X4_50 markers in the picture, mm: six of their cells");
   add("--mm-per-px", flags->mm_per_px, "Millimetres a pixel, as from a calibrated stand");
   add("--dpi", flags->dpi, "Pixels an inch of a flatbed scan");
   add("--length-mm", flags->length_mm, "Pivot to distal end of the upper blade, mm");

@@ -6,16 +6,15 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/blurred_step.h"
-#include "vision/square_fit.h"
+#include "vision/marker_fit.h"
 
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
 using Corners = std::array<Vector2d, 4>;
+using SquareSides = std::array<StraightEdge, 4>;  // side k from corner k to the next
 
-constexpr double kSmallPx = 120;       // longer sides lose too little at their ends to look again
 constexpr double kCellsPerMarker = 6;  // 4 of pattern and a black border of one on each side
 
 // How far the lens pushes the middle of a side off its chord, along (-dy, dx).
@@ -39,16 +38,21 @@ double ShortestSide(const Corners& corners) {
 bool LooksPrinted(const SquareSides& sides) {
   constexpr double kMinUsed = 0.5;     // sides half covered say too little
   constexpr double kMaxUneven = 0.35;  // paper beside a marker is about equally bright on all sides
-  constexpr double kBrightest = 3;     // times white; no step says more than that it is overexposed
   double low = 1e9, high = 0;
   for (const StraightEdge& side : sides) {
     // Clockwise, the inside lies along (-dy, dx). How far beyond white paper is is hardly seen.
     const double contrast = std::min(-side.contrast, 1.0);
-    if (contrast <= 0 || side.used < kMinUsed || side.bright > kBrightest) return false;
+    if (contrast <= 0 || side.used < kMinUsed) return false;
     low = std::min(low, contrast);
     high = std::max(high, contrast);
   }
   return low > kMaxUneven * high;
+}
+
+double BrightestSide(const SquareSides& sides) {
+  double brightest = 0;
+  for (const StraightEdge& side : sides) brightest = std::max(brightest, side.bright);
+  return brightest;
 }
 
 SeenMarker Unlocated(const RoughMarker& rough) {
@@ -86,16 +90,6 @@ bool AnyLocated(const std::vector<SeenMarker>& markers) {
   });
 }
 
-// The corners and the blur being known, more of a side can be used: the end of a line scatters with
-// the power -3/2 of its length.
-MarkerCornerOptions NearlyWholeSides(const SeenMarker& marker, MarkerCornerOptions options) {
-  constexpr double kSurePx = 0.3;      // corners located once are that good
-  constexpr double kClearBlurs = 2.5;  // beyond, the next side's step lacks less than 1 %
-  options.search_px = kSurePx;
-  options.blur_reach_px = kClearBlurs * std::sqrt(TotalBlurVariance(marker.blur_px));
-  return options;
-}
-
 // The sides by the pieces of them that the options leave.
 std::optional<SquareSides> LocateSides(const cv::Mat& grey,
                                        const ToneCurve& tone,
@@ -131,20 +125,6 @@ SeenMarker CrossSides(const SquareSides& sides,
   return marker;
 }
 
-// A marker once more, by all that is seen of it; as it was where that fails.
-SeenMarker Sharpened(const cv::Mat& grey,
-                     const ToneCurve& tone,
-                     const SeenMarker& marker,
-                     const MarkerCornerOptions& rough_options) {
-  const MarkerCornerOptions options = NearlyWholeSides(marker, rough_options);
-  const auto sides = LocateSides(grey, tone, marker.corners_px, options);
-  if (!sides) return marker;
-  const double free_px = MarkerSide(marker.corners_px, 0, options).free_px;
-  const SquareSides fitted = FitSquare(grey, tone, *sides, free_px).value_or(*sides);
-  const SeenMarker again = CrossSides(fitted, {marker.id, marker.corners_px}, options);
-  return std::isfinite(again.corner_sigma_px) ? again : marker;
-}
-
 }  // namespace
 
 StraightEdgeGuess MarkerSide(const Corners& corners_px,
@@ -154,8 +134,9 @@ StraightEdgeGuess MarkerSide(const Corners& corners_px,
   const Vector2d& to = corners_px[static_cast<size_t>((side + 1) % 4)];
   const double length = (to - from).norm();
   const double cell = ShortestSide(corners_px) / kCellsPerMarker;
-  // Of small markers at least 70 % of the side stays.
-  const double trim = std::min(0.15 * length, options.blur_reach_px + options.search_px);
+  // Beyond the reach of the corners' blur; of small markers at least 70 % of the side stays.
+  constexpr double kBlurReachPx = 4;
+  const double trim = std::min(0.15 * length, kBlurReachPx + options.search_px);
   const Vector2d direction = (to - from) / length;
   StraightEdgeGuess guess;
   guess.from_px = from + trim * direction;
@@ -170,13 +151,13 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const RoughMarker& rough,
                                const MarkerCornerOptions& options) {
+  constexpr double kBrightest = 3;  // times white; no step says more than that it is overexposed
   const auto sides = LocateSides(grey, tone, rough.corners_px, options);
   if (!sides) return Unlocated(rough);
   const SeenMarker marker = CrossSides(*sides, rough, options);
   if (!std::isfinite(marker.corner_sigma_px)) return marker;
-  // Four sides together say better than one how bright the paper is.
-  const bool worth_it = marker.overexposed || ShortestSide(marker.corners_px) <= kSmallPx;
-  return worth_it ? Sharpened(grey, tone, marker, options) : marker;
+  if (const auto whole = FitMarker(grey, tone, marker, options.camera)) return *whole;
+  return BrightestSide(*sides) > kBrightest ? Unlocated(rough) : marker;
 }
 
 std::vector<SeenMarker> FindMarkers(const cv::Mat& grey,

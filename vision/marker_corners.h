@@ -16,7 +16,6 @@ namespace bladecurve {
 struct MarkerCornerOptions {
   double search_px = 2;          // how far off the rough corners may be
   std::optional<Camera> camera;  // its lens bends the sides; absent: straight
-  double blur_reach_px = 4;      // how far from a corner its blur spoils the sides
 };
 
 // The piece of a marker's side k (from corner k to the next) that neither corner blurs.
@@ -24,7 +23,8 @@ struct MarkerCornerOptions {
                                            int side,
                                            const MarkerCornerOptions& options);
 
-// Corners as intersections of lines fitted to the four sides. Where a side cannot be located, or
+// Corners by all borders of the marker's cells (FitMarker); where some of those are covered, as
+// intersections of lines fitted to the four sides. Where a side cannot be located, or
 // the four do not look like a dark square on light paper, the rough corners come back with
 // corner_sigma_px NaN.
 [[nodiscard]] SeenMarker LocateMarkerCorners(const cv::Mat& grey,

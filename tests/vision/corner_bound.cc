@@ -3,98 +3,99 @@
 #include "vision/corner_bound.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <array>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
+#include <vector>
 
 namespace bladecurve {
 namespace {
 
-constexpr int kSides = 4;
-// Offset and angle of each side, then:
-enum Unknown { kDark = 2 * kSides, kBright, kBlur, kLampX, kLampY, kUnknowns };
+constexpr int kCorners = 8;  // coordinates
+enum Unknown { kDark = kCorners, kBright, kBlur, kLampX, kLampY, kUnknowns };
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
 Unknowns Truth(const SquareImage& image) {
   Unknowns truth = Unknowns::Zero();
+  const auto corners = Corners(image);
+  for (int k = 0; k < 4; ++k) truth.segment<2>(2 * k) = corners[static_cast<size_t>(k)];
   truth[kDark] = 255 * image.dark;
   truth[kBright] = 255 * image.bright;
   truth[kBlur] = image.blur_px;
   return truth;
 }
 
-// Distances of a point from the four sides, outside positive.
-std::array<double, kSides> Distances(const SquareImage& image,
-                                     const Eigen::Vector2d& point,
-                                     const Unknowns& at) {
-  std::array<double, kSides> distances{};
-  for (int side = 0; side < kSides; ++side) {
-    const double angle = image.angle_rad + side * M_PI / 2;
-    const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
-    const Eigen::Vector2d along(-normal.y(), normal.x()), d = point - image.centre_px;
-    distances[static_cast<size_t>(side)] =
-        normal.dot(d) - 0.5 * image.side_px - at[2 * side] - at[2 * side + 1] * along.dot(d);
+// A place of the picture in sides from the middle of the square with these corners.
+class InSquare {
+ public:
+  explicit InSquare(const Unknowns& at) {
+    Eigen::Matrix<double, 8, 8> equations;
+    Eigen::Matrix<double, 8, 1> sides;
+    for (int k = 0; k < 4; ++k) {
+      const double x = at[2 * k], y = at[2 * k + 1];
+      const double u = k == 1 || k == 2 ? 0.5 : -0.5, v = k >= 2 ? 0.5 : -0.5;
+      equations.row(2 * k) << x, y, 1, 0, 0, 0, -u * x, -u * y;
+      equations.row(2 * k + 1) << 0, 0, 0, x, y, 1, -v * x, -v * y;
+      sides.segment<2>(2 * k) << u, v;
+    }
+    const Eigen::Matrix<double, 8, 1> h = equations.fullPivLu().solve(sides);
+    map_ << h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1;
   }
-  return distances;
-}
 
-// The pixel's box counts as a Gaussian of its variance, which is good enough for a bound.
-double Light(const SquareImage& image, const Eigen::Vector2d& point, const Unknowns& at) {
-  const double sigma = std::sqrt(at[kBlur] * at[kBlur] + 1.0 / 12);
-  double inside = 1;
-  for (const double distance : Distances(image, point, at))
-    inside *= 0.5 * std::erfc(distance / sigma / std::sqrt(2.0));
-  const Eigen::Vector2d place = (point - image.centre_px) / image.side_px;
+  [[nodiscard]] Eigen::Vector2d At(const Eigen::Vector2d& point) const {
+    return (map_ * point.homogeneous()).hnormalized();
+  }
+
+ private:
+  Eigen::Matrix3d map_;
+};
+
+double Light(const SquareImage& image,
+             const InSquare& square,
+             const Eigen::Vector2d& point,
+             const Unknowns& at) {
+  const Eigen::Vector2d place = square.At(point);
+  const double inside = Inside(image, place, std::sqrt(at[kBlur] * at[kBlur] + 1.0 / 12));
   const double lamp = 1 + at[kLampX] * place.x() + at[kLampY] * place.y();
   return lamp * (at[kBright] + (at[kDark] - at[kBright]) * inside);
 }
 
-bool Used(const SquareImage& image, const Eigen::Vector2d& point) {
-  constexpr double kReachBlurs = 5, kLeast = 4, kCellShare = 0.75, kCells = 6;
-  const double reach =
-      std::min(std::max(kReachBlurs * std::sqrt(image.blur_px * image.blur_px + 1.0 / 12), kLeast),
-               kCellShare * image.side_px / kCells);
-  const auto distances = Distances(image, point, Truth(image));
-  return std::abs(*std::max_element(distances.begin(), distances.end())) <= reach;
-}
+// The truth with one unknown a little more and a little less.
+struct Nudged {
+  Nudged(const Unknowns& truth, int unknown, double step)
+      : more(truth + step * Unknowns::Unit(unknown)),
+        less(truth - step * Unknowns::Unit(unknown)),
+        square_more(more),
+        square_less(less) {}
 
-Unknowns Gradient(const SquareImage& image, const Eigen::Vector2d& point) {
-  constexpr double kStep = 1e-5;
-  Unknowns gradient;
-  for (int k = 0; k < kUnknowns; ++k) {
-    Unknowns more = Truth(image), less = more;
-    more[k] += kStep;
-    less[k] -= kStep;
-    gradient[k] = (Light(image, point, more) - Light(image, point, less)) / (2 * kStep);
-  }
-  return gradient;
-}
+  Unknowns more, less;
+  InSquare square_more, square_less;
+};
 
 }  // namespace
 
 double CornerBound(const SquareImage& image) {
+  constexpr double kStep = 1e-4;
+  std::vector<Nudged> nudged;
+  for (int k = 0; k < kUnknowns; ++k) nudged.emplace_back(Truth(image), k, kStep);
   Information information = Information::Zero();
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      if (!Used(image, Eigen::Vector2d(x, y))) continue;
-      const Unknowns gradient = Gradient(image, Eigen::Vector2d(x, y));
+      Unknowns gradient;
+      for (int k = 0; k < kUnknowns; ++k) {
+        const Nudged& by = nudged[static_cast<size_t>(k)];
+        gradient[k] = (Light(image, by.square_more, {x, y}, by.more) -
+                       Light(image, by.square_less, {x, y}, by.less)) /
+                      (2 * kStep);
+      }
       information += gradient * gradient.transpose();
     }
   }
   const double rounding = 1.0 / 12;
   const Information covariance =
       (image.noise * image.noise + rounding) * information.ldlt().solve(Information::Identity());
-  // A corner moves across a side by what the side does at its end.
-  double variance = 0;
-  for (int side = 0; side < kSides; ++side) {
-    const Eigen::Matrix2d own = covariance.block<2, 2>(2 * side, 2 * side);
-    for (const double end : {-0.5, 0.5}) {
-      const Eigen::Vector2d lever(1, end * image.side_px);
-      variance += lever.dot(own * lever) / (2 * kSides);
-    }
-  }
-  return std::sqrt(variance);
+  return std::sqrt(covariance.topLeftCorner<kCorners, kCorners>().trace() / kCorners);
 }
 
 }  // namespace bladecurve

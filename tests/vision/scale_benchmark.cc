@@ -31,7 +31,7 @@ Outcome Run(SquareImage image, int draws) {
     image.centre_px = {0.5 * image.width + Uniform(&random, -1, 1),
                        0.5 * image.height + Uniform(&random, -1, 1)};
     const cv::Mat grey = Draw(image, &random);
-    RoughMarker rough{0, Corners(image)};
+    RoughMarker rough{*image.marker, Corners(image)};
     for (Eigen::Vector2d& corner : rough.corners_px) {
       corner += Eigen::Vector2d(Uniform(&random, -1, 1), Uniform(&random, -1, 1));
     }
@@ -92,6 +92,7 @@ int main() {
     for (const double blur : {0.6, 0.8, 1.0, 1.5}) {
       SquareImage image;
       image.side_px = side;
+      image.marker = 7;
       image.blur_px = blur;
       image.width = image.height = static_cast<int>(1.5 * side) + 40;
       image.centre_px = Eigen::Vector2d::Constant(image.width / 2);

@@ -4,35 +4,40 @@
 
 #include <cmath>
 
+#include "vision/marker_detector.h"
+
 namespace bladecurve {
 namespace {
+
+constexpr int kPattern = 4, kCells = 6;  // of a marker, on a side; the border counts as cells
 
 double NormalIntegral(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
 // Light missing at a point: 1 deep inside the square.
-double Inside(const SquareImage& image, const Eigen::Vector2d& point) {
-  const Eigen::Vector2d d = point - image.centre_px;
-  const double c = std::cos(image.angle_rad), s = std::sin(image.angle_rad),
-               h = 0.5 * image.side_px;
-  const auto slab = [&](double u) {
-    return NormalIntegral((u + h) / image.blur_px) - NormalIntegral((u - h) / image.blur_px);
-  };
-  return slab(c * d.x() + s * d.y()) * slab(-s * d.x() + c * d.y());
+// What a blurred slab from `low` to `high` lets through at u.
+double Slab(double u, double low, double high, double sigma) {
+  return NormalIntegral((u - low) / sigma) - NormalIntegral((u - high) / sigma);
 }
 
-// True where every point of the pixel is 7 sigma from each side: then the middle says it all.
+Eigen::Vector2d InSides(const SquareImage& image, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d d = point - image.centre_px;
+  const double c = std::cos(image.angle_rad), s = std::sin(image.angle_rad);
+  return Eigen::Vector2d(c * d.x() + s * d.y(), -s * d.x() + c * d.y()) / image.side_px;
+}
+
 bool FarFromSides(const SquareImage& image, int x, int y) {
-  const Eigen::Vector2d d = Eigen::Vector2d(x, y) - image.centre_px;
-  const double c = std::cos(image.angle_rad), s = std::sin(image.angle_rad),
-               h = 0.5 * image.side_px;
-  const double u = std::abs(c * d.x() + s * d.y()), v = std::abs(-s * d.x() + c * d.y());
-  const double far = 7 * image.blur_px + 1;
-  return std::max(u, v) > h + far || (std::abs(u - h) > far && std::abs(v - h) > far);
+  const Eigen::Vector2d off = InSides(image, {x, y}).cwiseAbs() * image.side_px;
+  const double h = 0.5 * image.side_px, far = 7 * image.blur_px + 1;
+  if (off.maxCoeff() > h + far) return true;
+  const double spacing = image.marker ? image.side_px / kCells : h;
+  const auto far_from_lines = [&](double from_middle) {
+    return std::abs(from_middle - spacing * std::round(from_middle / spacing)) > far;
+  };
+  return far_from_lines(off.x()) && far_from_lines(off.y());
 }
 
 double PixelMean(const SquareImage& image, int x, int y) {
-  if (FarFromSides(image, x, y))
-    return Inside(image, {static_cast<double>(x), static_cast<double>(y)});
+  if (FarFromSides(image, x, y)) return Inside(image, InSides(image, {x, y}), image.blur_px);
   constexpr double kNode[] = {
       -0.4305681557970263, -0.1699905217924281, 0.1699905217924281, 0.4305681557970263};
   constexpr double kWeight[] = {
@@ -40,12 +45,30 @@ double PixelMean(const SquareImage& image, int x, int y) {
   double sum = 0;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < 4; ++j)
-      sum += kWeight[i] * kWeight[j] * Inside(image, {x + kNode[i], y + kNode[j]});
+      sum += kWeight[i] * kWeight[j] *
+             Inside(image, InSides(image, {x + kNode[i], y + kNode[j]}), image.blur_px);
   }
   return sum;
 }
 
 }  // namespace
+
+double Inside(const SquareImage& image, const Eigen::Vector2d& sides, double sigma_px) {
+  const double sigma = sigma_px / image.side_px;
+  const double square = Slab(sides.x(), -0.5, 0.5, sigma) * Slab(sides.y(), -0.5, 0.5, sigma);
+  if (!image.marker) return square;
+  const std::array<bool, 16> paper = MarkerCells(*image.marker);
+  std::array<double, kPattern> across{}, down{};
+  for (int i = 0; i < kPattern; ++i) {
+    const double low = (i + 1.0) / kCells - 0.5, high = low + 1.0 / kCells;
+    across[static_cast<size_t>(i)] = Slab(sides.x(), low, high, sigma);
+    down[static_cast<size_t>(i)] = Slab(sides.y(), low, high, sigma);
+  }
+  double light = 0;
+  for (size_t i = 0; i < paper.size(); ++i)
+    light += paper[i] ? across[i % kPattern] * down[i / kPattern] : 0;
+  return square - light;
+}
 
 ToneCurve LinearToneCurve() {
   ToneCurve tone;

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <random>
 
 #include "vision/tone_curve.h"
@@ -22,7 +23,14 @@ struct SquareImage {
   double dark = 50 / 255.0, bright = 200 / 255.0;  // linear light
   double noise = 2;                                // grey values
   double encoding_gamma = 1;                       // stored = light^(1 / gamma)
+  std::optional<int> marker;                       // of DICT_4X4_50; absent: a plain dark square
 };
+
+// How much of the blurred dark a place sees; x and y in sides from the middle, x along the first
+// side.
+[[nodiscard]] double Inside(const SquareImage& image,
+                            const Eigen::Vector2d& sides,
+                            double sigma_px);
 
 // Corners clockwise from the top left.
 [[nodiscard]] std::array<Eigen::Vector2d, 4> Corners(const SquareImage& image);

@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <random>
 
 #include "vision/marker_corners.h"
-#include "vision/square_fit.h"
 #include "vision/square_images.h"
 #include "vision/tone_curve.h"
 
@@ -106,31 +104,6 @@ TEST(LocateStraightEdge, FindsNothingOnBlankPaper) {
       blank, LinearToneCurve(), MarkerSide(Corners(image), 0, {2, std::nullopt})));
 }
 
-double CornerRms(SquareImage image, const ToneCurve& tone, int draws) {
-  std::mt19937 random(11);
-  double square = 0;
-  for (int i = 0; i < draws; ++i) {
-    image.angle_rad = Uniform(&random, -0.7, 0.7);
-    const cv::Mat grey = Draw(image, &random);
-    RoughMarker rough{0, Corners(image)};
-    for (auto& corner : rough.corners_px)
-      corner += Eigen::Vector2d(Uniform(&random, -1.5, 1.5), Uniform(&random, -1.5, 1.5));
-    const SeenMarker marker = LocateMarkerCorners(grey, tone, rough, {2.5, std::nullopt});
-    for (size_t k = 0; k < 4; ++k)
-      square += (marker.corners_px[k] - Corners(image)[k]).squaredNorm() / (8 * draws);
-  }
-  return std::sqrt(square);
-}
-
-TEST(LocateMarkerCorners, AreGoodToAHundredthOfAPixel) {
-  for (const double blur : {0.8, 1.5}) {
-    SquareImage image;
-    image.blur_px = blur;
-    image.side_px = 150;
-    EXPECT_LT(CornerRms(image, LinearToneCurve(), 10), 0.01) << "blur " << blur;
-  }
-}
-
 TEST(SrgbToneCurve, ServesPicturesOfGamma22) {
   // Gamma 2.2 is sRGB to within the 0.03 px that a tone curve may leave; stored values taken for
   // light are 0.6 px off.
@@ -146,121 +119,6 @@ TEST(SrgbToneCurve, ServesPicturesOfGamma22) {
   ASSERT_TRUE(decoded && stored);
   EXPECT_LT(std::abs(OffsetOf(*decoded, image)), 0.03);
   EXPECT_GT(std::abs(OffsetOf(*stored, image)), 0.3);
-}
-
-using Dim = std::function<cv::Mat(const cv::Mat& grey)>;
-
-// Rms of the corners of markers of 60 px.
-double SmallMarkerRms(double blur_px, const Dim& dim) {
-  constexpr int kDraws = 60;
-  std::mt19937 random(19);
-  SquareImage image;
-  image.side_px = 60;
-  image.blur_px = blur_px;
-  double squares = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    image.angle_rad = Uniform(&random, -0.7, 0.7);
-    image.centre_px = {130 + Uniform(&random, -1, 1), 130 + Uniform(&random, -1, 1)};
-    const cv::Mat grey = dim(Draw(image, &random));
-    RoughMarker rough{0, Corners(image)};
-    for (Eigen::Vector2d& corner : rough.corners_px)
-      corner += Eigen::Vector2d(Uniform(&random, -1, 1), Uniform(&random, -1, 1));
-    const SeenMarker marker =
-        LocateMarkerCorners(grey, LinearToneCurve(), rough, {2, std::nullopt});
-    EXPECT_TRUE(std::isfinite(marker.corner_sigma_px)) << "draw " << i;
-    for (size_t k = 0; k < 4; ++k)
-      squares += (marker.corners_px[k] - Corners(image)[k]).squaredNorm() / (8 * kDraws);
-  }
-  return std::sqrt(squares);
-}
-
-constexpr double kDemandedPx = 0.01;
-
-// Sides fitted one by one leave 0.012 px at a blur of 1.5 px.
-TEST(LocateMarkerCorners, SmallMarkersAreGoodToAHundredthOfAPixel) {
-  for (const double blur : {1.0, 1.5})
-    EXPECT_LT(SmallMarkerRms(blur, [](const cv::Mat& grey) { return grey; }), kDemandedPx)
-        << "blur " << blur;
-}
-
-// A lamp at the side: a tenth less light over the marker.
-TEST(LocateMarkerCorners, LightThatFallsOffMovesNoCorner) {
-  const auto dim = [](const cv::Mat& grey) {
-    cv::Mat dimmed = grey.clone();
-    for (int y = 0; y < grey.rows; ++y) {
-      for (int x = 0; x < grey.cols; ++x) {
-        const double lamp = 1 - 0.1 * (x - 130) / 60.0;
-        dimmed.at<uchar>(y, x) = cv::saturate_cast<uchar>(lamp * grey.at<uchar>(y, x));
-      }
-    }
-    return dimmed;
-  };
-  EXPECT_LT(SmallMarkerRms(1.0, dim), kDemandedPx);
-}
-
-// Mean distance from the middle of the located corners less that of the true ones, px.
-struct Growth {
-  double mean_px = 0;
-  bool overexposed = true;
-};
-
-Growth GrowthOfMarker(double paper) {
-  constexpr int kDraws = 20;
-  std::mt19937 random(23);
-  SquareImage image;
-  image.side_px = 140;
-  image.blur_px = 0.7;
-  image.bright = paper;
-  Growth growth;
-  for (int i = 0; i < kDraws; ++i) {
-    image.angle_rad = Uniform(&random, -0.7, 0.7);
-    const SeenMarker marker = LocateMarkerCorners(
-        Draw(image, &random), LinearToneCurve(), {0, Corners(image)}, {2, std::nullopt});
-    EXPECT_TRUE(std::isfinite(marker.corner_sigma_px)) << "paper " << paper << " draw " << i;
-    for (size_t k = 0; k < 4; ++k) {
-      growth.mean_px += ((marker.corners_px[k] - image.centre_px).norm() -
-                         (Corners(image)[k] - image.centre_px).norm()) /
-                        (4 * kDraws);
-    }
-    growth.overexposed &= marker.overexposed;
-  }
-  return growth;
-}
-
-// Taken for white, paper of 1.6 times its light makes markers look 0.4 px smaller on every side.
-TEST(LocateMarkerCorners, PaperBrighterThanWhiteShrinksNoMarker) {
-  constexpr double kClosePx = 0.02;
-  for (const double paper : {1.2, 1.6, 2.2}) {
-    const Growth growth = GrowthOfMarker(paper);
-    EXPECT_NEAR(growth.mean_px, 0, kClosePx) << paper;
-    EXPECT_TRUE(growth.overexposed) << paper;
-  }
-  EXPECT_FALSE(GrowthOfMarker(0.8).overexposed);
-}
-
-TEST(LocateMarkerCorners, PaperFarBeyondWhiteLeavesNoMarker) {
-  std::mt19937 random(24);
-  SquareImage image;
-  image.bright = 8;
-  const SeenMarker marker = LocateMarkerCorners(
-      Draw(image, &random), LinearToneCurve(), {0, Corners(image)}, {2, std::nullopt});
-  EXPECT_TRUE(std::isnan(marker.corner_sigma_px));
-}
-
-TEST(FitSquare, LeavesSquaresThatArePartlyCovered) {
-  std::mt19937 random(3);
-  const SquareImage image;
-  const cv::Mat grey = Draw(image, &random);
-  SquareSides sides;
-  for (int k = 0; k < 4; ++k) {
-    const auto side = LocateStraightEdge(
-        grey, LinearToneCurve(), MarkerSide(Corners(image), k, {2, std::nullopt}));
-    ASSERT_TRUE(side) << "side " << k;
-    sides[static_cast<size_t>(k)] = *side;
-  }
-  EXPECT_TRUE(FitSquare(grey, LinearToneCurve(), sides, 8));
-  sides[2].used = 0.9;
-  EXPECT_FALSE(FitSquare(grey, LinearToneCurve(), sides, 8));
 }
 
 }  // namespace
