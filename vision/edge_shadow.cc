@@ -49,6 +49,7 @@ DarkBand JudgeDarkBand(const cv::Mat& bgr,
   constexpr double kDeepest = 0.45, kDeep = 0.25;  // of the blade's width, from the inner step
   constexpr double kToldApart = 0.15;              // chromas nearer than that are not
   constexpr double kShadow = 0.45, kMetal = 0.6;   // of the way from background to blade
+  constexpr double kScatter = 0.05;                // of chromas: skylight, colours that bleed
   const double inner = std::min(edge.rival_px, 0.0), outer = std::max(edge.rival_px, 0.0);
   const double width = outer - inner;
   const auto band = ChromaAlong(bgr, tone, edge, inner + kBlur, outer - kBlur);
@@ -59,8 +60,9 @@ DarkBand JudgeDarkBand(const cv::Mat& bgr,
   const Chroma way = *blade - *ground;
   if (way.norm() < kToldApart) return DarkBand::kUnknown;
   const double share = (*band - *ground).dot(way) / way.squaredNorm();
-  if (share < kShadow) return DarkBand::kShadow;
-  return share > kMetal ? DarkBand::kMetal : DarkBand::kUnknown;
+  const double unsure = kScatter / way.norm();
+  if (share < std::min(kShadow, 0.5 - unsure)) return DarkBand::kShadow;
+  return share > std::max(kMetal, 0.5 + unsure) ? DarkBand::kMetal : DarkBand::kUnknown;
 }
 
 }  // namespace bladecurve

@@ -146,6 +146,18 @@ TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
   EXPECT_EQ(Judge(steel, 0.3 * wood + skylight, wood), DarkBand::kShadow);
 }
 
+// Skylight and colours that bleed shift what is seen by as much as these two differ.
+TEST(JudgeDarkBand, IsSurerWhereColoursDifferMore) {
+  const Vector3d steel(170, 168, 166), grey_cloth(140, 120, 126), violet_cloth(160, 100, 120);
+  const auto between = [&](const Vector3d& cloth, double share) -> Vector3d {
+    return 0.4 * (cloth + share * (steel - cloth));
+  };
+  EXPECT_EQ(Judge(steel, between(grey_cloth, 0.62), grey_cloth), DarkBand::kUnknown);
+  EXPECT_EQ(Judge(steel, between(grey_cloth, 0.38), grey_cloth), DarkBand::kUnknown);
+  EXPECT_EQ(Judge(steel, between(violet_cloth, 0.75), violet_cloth), DarkBand::kMetal);
+  EXPECT_EQ(Judge(steel, between(violet_cloth, 0.25), violet_cloth), DarkBand::kShadow);
+}
+
 TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
   const Vector3d steel(170, 168, 166), paper(220, 220, 216);
   EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
