@@ -213,6 +213,36 @@ void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* bla
     Replace(*found, kWhereMirrored, &doubtful);
 }
 
+// The blade along the inner side of a band beside its edge that may be a shadow, if it is seen.
+std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlade& blade) {
+  constexpr double kSeen = 0.25;  // ambiguity; beside dark metal that side is a low step
+  constexpr double kLeast = 4, kReach = 0.65;  // px; of the way to the band's other side
+  const LocatedEdge& edge = blade.edge;
+  if (edge.ambiguity < kSeen || edge.rival_px > -kLeast) return std::nullopt;
+  const EdgeGuess guess{edge.rival_path_px, blade.on_left, -kReach * edge.rival_px};
+  return UnlessRefused([&] {
+    LocatedBlade within = blade;
+    within.edge = LocateBladeAlong(view.photo, view.scale, view.scene, guess);
+    TrimToFree(view.photo, view.scene, &within);
+    return within;
+  });
+}
+
+// A lamp behind the blades lays hard shadows beside both edges. Their borders mirror each other
+// less well than the edges within do.
+bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kLeft = 0.5;  // of the difference
+  const std::optional<LocatedBlade> upper = WithinBand(view, blades->upper);
+  const std::optional<LocatedBlade> lower = upper ? WithinBand(view, blades->lower) : std::nullopt;
+  if (!lower) return false;
+  const double asymmetry = EdgeAsymmetry(PairOf(*upper, *lower), pivot.point_px);
+  if (std::abs(asymmetry) > kLeft * std::abs(pivot.asymmetry)) return false;
+  blades->upper = *upper;
+  blades->lower = *lower;
+  blades->upper.moved = blades->lower.moved = "to the inner sides of the bands beside both";
+  return true;
+}
+
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (!KnowsMirror(view, pivot)) {
     // A slanted view may part them as well; but then nothing is seen where they would agree.
@@ -223,7 +253,7 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot.asymmetry)) {
-    RelocateClearerOne(view, pivot, blades);
+    if (!LeaveBothShadows(view, pivot, blades)) RelocateClearerOne(view, pivot, blades);
   } else {
     RelocateDoubtfulOne(view, pivot, blades);
   }

@@ -72,6 +72,33 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
 // Too little aside to be told by the mirror alone, 0.018 of the blades' length.
 constexpr double kLittlePx = 3;
 
+// As if the edge had been taken for the border of a hard shadow, with the edge as its rival.
+void TakeShadowsBorder(Measured* measured, LocatedBlade* blade, double width_px, double rival) {
+  std::vector<Vector2d> within;
+  for (const LocatedEdgePoint& p : blade->edge.points) within.push_back(p.trend_px);
+  measured->Misplace(blade, width_px, Measured::kStrong);
+  blade->edge.rival_path_px = within;
+  blade->edge.rival_px = -width_px;
+  blade->edge.ambiguity = rival;
+}
+
+// Dark metal hardly parts from its shadow: the edge is a faint rival of the shadow's border.
+TEST(RelocateUnlikeEdges, FindsBothEdgesInsideOfHardShadows) {
+  constexpr double kWidePx = 16, kNarrowPx = 8, kClosePx = 0.3;
+  const auto relocated = [&](double faint_rival) {
+    Measured measured{SceneWithMarkers()};
+    TakeShadowsBorder(&measured, &measured.blades.upper, kWidePx, faint_rival);
+    TakeShadowsBorder(&measured, &measured.blades.lower, kNarrowPx, 0.9);
+    Relocate(&measured);
+    return measured;
+  };
+  const Measured measured = relocated(0.35);
+  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
+  EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx);
+  const Measured without_rival = relocated(0.1);
+  EXPECT_GT(FarFrom(without_rival.truth.lower, without_rival.blades.lower.used), kNarrowPx / 2);
+}
+
 TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   constexpr double kClosePx = 0.3;
   for (const bool upper : {true, false}) {
