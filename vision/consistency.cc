@@ -12,9 +12,7 @@ namespace bladecurve {
 namespace {
 
 void RefuseOutOfPlane(const Pivot& pivot) {
-  // Straight and curved scissors seen at a slant reach 0.1, bandage scissors 0.25 and more.
-  constexpr double kLargestAsymmetry = 0.2;
-  if (std::abs(pivot.asymmetry) <= kLargestAsymmetry) return;
+  if (!LieInNoPlane(pivot.asymmetry)) return;
   throw Refused(
       Reason::kOutOfPlane,
       "pivot: the two cutting edges pass by the pivot at very different distances (" +
@@ -92,7 +90,10 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
                     "--pivot X,Y");
 }
 
-// Of the blades' length. Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
+// Of the blades' length, as all that follow. Straight and curved scissors seen at a slant reach
+// 0.1, bandage scissors 0.25 and more.
+bool LieInNoPlane(double asymmetry) { return std::abs(asymmetry) > 0.2; }
+// Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
 // there no other transition accounts for it.
 bool AreSuspect(double asymmetry) { return std::abs(asymmetry) >= 0.010; }
 bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }

@@ -34,6 +34,9 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 [[nodiscard]] bool AreSuspect(double asymmetry);
 [[nodiscard]] bool AreAlike(double asymmetry);
 
+// Whether they pass it so differently that no view of blades in one plane accounts for it.
+[[nodiscard]] bool LieInNoPlane(double asymmetry);
+
 // Whether the edges pass by a pivot that is seen or told so differently that one of them is in
 // doubt.
 [[nodiscard]] bool PassUnlike(const Pivot& pivot);

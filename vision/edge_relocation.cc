@@ -39,16 +39,20 @@ struct Mirroring {
     return std::abs(pivot.asymmetry) * (other.end.point_px - pivot.point_px).norm();
   }
 
-  // search_px: at least so far aside, and further where the way is long.
   [[nodiscard]] EdgeGuess GuessWithin(double search_px) const {
-    constexpr double kOfWay = 0.35;
     EdgeGuess guess;
     for (const LocatedEdgePoint& p : other.edge.points) {
       if (p.inlier) guess.path_px.push_back(line.Reflected(p.trend_px));
     }
     guess.blade_on_left = !other.on_left;
-    guess.search_px = std::max(search_px, kOfWay * WayPx());
+    guess.search_px = search_px;
     return guess;
+  }
+
+  // At least so far aside, and further where the way is long.
+  [[nodiscard]] double Widened(double search_px) const {
+    constexpr double kOfWay = 0.35;
+    return std::max(search_px, kOfWay * WayPx());
   }
 
   // Of the difference between the two, what is left.
@@ -76,7 +80,7 @@ struct Mirroring {
   // The place where a shadow begins.
   [[nodiscard]] std::optional<Relocated> LookInShadow(double search_px) const {
     std::optional<LocatedEdge> edge =
-        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(search_px));
+        LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(Widened(search_px)));
     if (!edge) return std::nullopt;
     return UnlessRefused([&] { return WithEdge(*std::move(edge)); });
   }
@@ -87,7 +91,7 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
   constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
   const bool suspect = AreSuspect(mirroring.pivot.asymmetry);
-  std::optional<Relocated> found = mirroring.LookWithin(kNearest);
+  std::optional<Relocated> found = mirroring.LookWithin(mirroring.Widened(kNearest));
   if (suspect && found && mirroring.LeftBy(*found) > kSame)  // the line that is doubted
     found = mirroring.LookWithin(kShortOf * mirroring.WayPx());
   if (!found || (suspect && mirroring.LeftBy(*found) >= kMuchLess)) return std::nullopt;
@@ -97,6 +101,12 @@ std::optional<Relocated> LookWhereMirrored(const Mirroring& mirroring) {
 void Replace(const Relocated& found, const char* where, LocatedBlade* blade) {
   *blade = found.blade;
   blade->moved = where;
+}
+
+// An edge that was found by symmetry, unless that is known to hold.
+void MarkAsAssumed(const MirrorView& view, const Pivot& pivot, LocatedBlade* blade) {
+  if (!KnowsMirror(view, pivot))
+    blade->edge.ambiguity = std::max(blade->edge.ambiguity, kAssumedAmbiguity);
 }
 
 // The upper blade or the lower one, and the other.
@@ -195,8 +205,7 @@ bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* bla
   if (!found || found->blade.edge.ambiguity > kSeen) return false;
   if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
   Replace(*found, "inside a shadow, where the other one puts it", &outer);
-  if (!KnowsMirror(view, pivot))
-    outer.edge.ambiguity = std::max(outer.edge.ambiguity, kAssumedAmbiguity);
+  MarkAsAssumed(view, pivot, &outer);
   return true;
 }
 
@@ -243,7 +252,28 @@ bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades
   return true;
 }
 
+// Of edges more unlike than any view makes them, of which one is clear and the other is not, that
+// other one as clearly where the first puts it: it had been lost. The distal ends, seen better, say
+// where the mirror is.
+bool RelocateLostOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kAsHigh = 0.5;   // of the clear one's step
+  constexpr double kAside = 0.025;  // of the length; the lost one's end was found beside its edge
+  if (!MayHaveLostOne(view, pivot, *blades)) return false;
+  const auto [lost, clear] = OneOf(blades, IsClear(blades->lower.edge));
+  const MirrorLine line = LineBetweenEnds(view, pivot, *blades);
+  const double length_px = (clear.end.point_px - pivot.point_px).norm();
+  const auto found = Mirroring{view, pivot, clear, line}.LookWithin(kAside * length_px);
+  if (!found || !AreAlike(found->asymmetry) || !IsClear(found->blade.edge)) return false;
+  if (std::abs(TypicalContrast(found->blade.edge)) <
+      kAsHigh * std::abs(TypicalContrast(clear.edge)))
+    return false;
+  Replace(*found, kWhereMirrored, &lost);
+  MarkAsAssumed(view, pivot, &lost);
+  return true;
+}
+
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
@@ -260,6 +290,11 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
 }
 
 }  // namespace
+
+bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+  return AssumesMirror(view, pivot) && LieInNoPlane(pivot.asymmetry) &&
+         IsClear(blades.upper.edge) != IsClear(blades.lower.edge);
+}
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   Relocate(view, *pivot, blades);

@@ -177,9 +177,10 @@ Pivot LocatePivot(const Photo& photo,
 }
 
 // Edges that contradict each other or the pivot: one of them may have been taken elsewhere, where
-// the view is known.
+// the view is known, or lost.
 void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* log) {
-  if (!KnowsMirror(view, *pivot)) RefuseInconsistent(*pivot, *blades);
+  if (!KnowsMirror(view, *pivot) && !MayHaveLostOne(view, *pivot, *blades))
+    RefuseInconsistent(*pivot, *blades);
   RelocateUnlikeEdges(view, pivot, blades);
   RefuseInconsistent(*pivot, *blades);
   if (!blades->upper.moved.empty()) log->Ran("upper-edge-again", blades->upper.moved);

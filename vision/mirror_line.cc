@@ -47,4 +47,13 @@ MirrorLine LineBetween(const MirrorView& view, const Pivot& pivot, const Blades&
           (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 
+MirrorLine LineBetweenEnds(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+  const PlaneMap& map = *view.scale.map;
+  const Vector2d origin = map.PlaneFromImage(pivot.point_px);
+  const auto direction = [&](const LocatedBlade& blade) {
+    return (map.PlaneFromImage(blade.end.point_px) - origin).normalized();
+  };
+  return {map, origin, (direction(blades.upper) + direction(blades.lower)).normalized()};
+}
+
 }  // namespace bladecurve

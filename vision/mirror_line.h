@@ -51,4 +51,9 @@ struct MirrorView {
                                      const Pivot& pivot,
                                      const Blades& blades);
 
+// Through the pivot, halfway between the distal ends: where an edge was lost, not where it runs.
+[[nodiscard]] MirrorLine LineBetweenEnds(const MirrorView& view,
+                                         const Pivot& pivot,
+                                         const Blades& blades);
+
 }  // namespace bladecurve

@@ -158,6 +158,25 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.upper.edge.ambiguity, kWarned);
 }
 
+// Where the other edge is clear and this one is not: a trace that strayed into a ragged shadow.
+TEST(RelocateUnlikeEdges, FindsALostEdgeWithoutMarkers) {
+  constexpr double kAstrayPx = 70, kClosePx = 0.3, kWarned = 0.5;
+  const auto relocated = [&](bool other_is_clear) {
+    Measured measured{SceneWithMarkers()};
+    measured.Lose(&measured.blades.lower, kAstrayPx);
+    if (other_is_clear) Measured::MakeClear(&measured.blades.upper);
+    if (!other_is_clear) measured.blades.upper.edge.ambiguity = 1;
+    measured.scale.sheet.reset();
+    Relocate(&measured);
+    return measured;
+  };
+  const Measured measured = relocated(true);
+  EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx);
+  EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
+  const Measured both_unclear = relocated(false);
+  EXPECT_GT(FarFrom(both_unclear.truth.lower, both_unclear.blades.lower.used), kAstrayPx / 2);
+}
+
 // Without markers nobody knows from where the scissors are seen.
 TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   Measured measured{SceneWithMarkers()};
