@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "vision/blurred_step.h"
@@ -176,13 +177,14 @@ Minimum Minimise(const MarkerProblem& problem,
     const double moved_px = change.head<kHomography>().cwiseAbs().maxCoeff() * problem.cell_px();
     if (moved_px < kDonePx && change.dot(now.gradient) < kDoneShare * now.sum_square)
       return {Plausible(next) ? next : at, now.information};
-    const Equations there = problem.At(pixels, next);
-    if (!Plausible(next) || there.sum_square > now.sum_square) {
+    const std::optional<Equations> there =
+        Plausible(next) ? std::optional(problem.At(pixels, next)) : std::nullopt;
+    if (!there || there->sum_square > now.sum_square) {
       damping = std::max(10 * damping, 1e-3);
       continue;
     }
     at = next;
-    now = there;
+    now = *there;
     damping *= 0.1;
   }
   return {at, now.information};
@@ -212,6 +214,7 @@ class Agreement {
     for (const Cell& cell : cells_) {
       if (cell.count > 0) means.push_back(cell.sum_square / cell.count);
     }
+    if (means.empty()) return {};
     const auto middle = means.begin() + static_cast<long>(means.size() / 2);
     std::nth_element(means.begin(), middle, means.end());
     std::erase_if(pixels, [&](const MarkerPixel& pixel) {
@@ -320,6 +323,7 @@ std::optional<SeenMarker> FitMarker(const cv::Mat& grey,
   const std::array<Vector2d, 4> corners = StraightCorners(start, camera);
   const MarkerFrame frame = FrameOf(corners);
   const cv::Rect box = BoxAbout(start, frame.cell_px, grey.size());
+  if (box.empty()) return std::nullopt;
   const InkCells ink = InkCellsOf(start.id);
   const MarkerVector first = StartFrom(corners, frame, start.blur_px, SortedLight(grey, tone, box));
   std::vector<MarkerPixel> pixels =

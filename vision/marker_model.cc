@@ -27,8 +27,8 @@ Vector2d CornerInCells(int corner) {
 struct AxisShares {
   AxisShares(double place, double sigma) {
     const double per_sigma = 1 / sigma, reach = kComplete * sigma;
-    begin = std::clamp(static_cast<int>(std::floor(place - reach)), 0, kMarkerCells);
-    end = std::clamp(static_cast<int>(std::ceil(place + reach)), 0, kMarkerCells);
+    begin = static_cast<int>(std::clamp(place - reach, 0.0, double{kMarkerCells}));
+    end = static_cast<int>(std::ceil(std::clamp(place + reach, 0.0, double{kMarkerCells})));
     Line left = LineAt((place - begin) * per_sigma, per_sigma);
     for (int cell = begin; cell < end; ++cell) {
       const Line right = LineAt((place - cell - 1) * per_sigma, per_sigma);
@@ -82,7 +82,9 @@ InkSeen Seen(const InkCells& ink, const AxisShares& columns, const AxisShares& r
 }
 
 // Column or row of a place; -1 and 6 are the paper outside.
-int CellAt(double cell) { return std::clamp(static_cast<int>(cell + 1) - 1, -1, kMarkerCells); }
+int CellAt(double cell) {
+  return static_cast<int>(std::clamp(cell + 1, 0.0, kMarkerCells + 1.0)) - 1;
+}
 
 bool HasInk(const InkCells& ink, int row, int column) {
   return row >= 0 && row < kMarkerCells && column >= 0 && column < kMarkerCells &&
