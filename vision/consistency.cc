@@ -93,8 +93,9 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
 // Of the blades' length, as all that follow. Straight and curved scissors seen at a slant reach
 // 0.1, bandage scissors 0.25 and more.
 bool LieInNoPlane(double asymmetry) { return std::abs(asymmetry) > 0.2; }
-// Rendered scissors differ by 0.007, photographed ones by up to 0.09, but
-// there no other transition accounts for it.
+
+// Rendered scissors differ by 0.007, photographed ones by up to 0.09, but there no other transition
+// accounts for it.
 bool AreSuspect(double asymmetry) { return std::abs(asymmetry) >= 0.010; }
 bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }

@@ -72,10 +72,14 @@ bool IsTooSoft(const LocatedEdge& edge, const LocatedEdge& other, double most_bl
 
 // A transition beside the edge that could be the border instead, with a dark band between: shadow
 // or bevel.
-bool HasDarkBand(const LocatedEdge& edge) {
-  constexpr double kAsGood = 0.45;  // ambiguity; below, the other is no match
+bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
   constexpr double kNarrowest = 4;  // px; narrower bands are blur on both sides
-  return edge.ambiguity > kAsGood && std::abs(edge.rival_px) >= kNarrowest;
+  return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= kNarrowest;
+}
+
+bool HasDarkBand(const LocatedEdge& edge) {
+  constexpr double kAsGood = 0.45;  // below, the other is no match
+  return HasDarkBand(edge, kAsGood);
 }
 
 // Light that rises so slowly, going outwards, that the edge is vague although print bounds its
@@ -138,6 +142,13 @@ class BladeLocator {
   [[nodiscard]] LocatedEdge LocateOrTrace(bool left) {
     if (auto edge = UnlessRefused([&] { return Locate(left); })) return *std::move(edge);
     return AsTraced(scene_, left ? scene_.left : scene_.right, left);
+  }
+
+  // The edge along the inner side of a dark band beside it, however faint, if it is seen there.
+  [[nodiscard]] std::optional<LocatedEdge> WithinBand(const LocatedEdge& edge, bool left) const {
+    constexpr double kFaint = 0.25;  // ambiguity; beside dark metal that side is a low step
+    if (!HasDarkBand(edge, kFaint) || edge.rival_px > 0) return std::nullopt;
+    return AlongSide(edge.rival_path_px, edge, left);
   }
 
   // What the other blade tells of an edge's blur: a glaring blade's once more, as sharp as the
@@ -270,6 +281,14 @@ std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
                                                const Scene& scene,
                                                const EdgeGuess& guess) {
   return BladeLocator(photo, scale, scene).InShadow(guess);
+}
+
+std::optional<LocatedEdge> LocateBladeWithinBand(const Photo& photo,
+                                                 const ScaleResult& scale,
+                                                 const Scene& scene,
+                                                 const LocatedEdge& edge,
+                                                 bool blade_on_left) {
+  return BladeLocator(photo, scale, scene).WithinBand(edge, blade_on_left);
 }
 
 }  // namespace bladecurve

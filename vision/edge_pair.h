@@ -37,4 +37,12 @@ struct BladeEdges {
                                                              const Scene& scene,
                                                              const EdgeGuess& guess);
 
+// The same along the inner side of a dark band beside `edge`, if it is seen there: a shadow may
+// have been taken for the blade.
+[[nodiscard]] std::optional<LocatedEdge> LocateBladeWithinBand(const Photo& photo,
+                                                               const ScaleResult& scale,
+                                                               const Scene& scene,
+                                                               const LocatedEdge& edge,
+                                                               bool blade_on_left);
+
 }  // namespace bladecurve

@@ -224,14 +224,12 @@ void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* bla
 
 // The blade along the inner side of a band beside its edge that may be a shadow, if it is seen.
 std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlade& blade) {
-  constexpr double kSeen = 0.25;  // ambiguity; beside dark metal that side is a low step
-  constexpr double kLeast = 4, kReach = 0.65;  // px; of the way to the band's other side
-  const LocatedEdge& edge = blade.edge;
-  if (edge.ambiguity < kSeen || edge.rival_px > -kLeast) return std::nullopt;
-  const EdgeGuess guess{edge.rival_path_px, blade.on_left, -kReach * edge.rival_px};
+  std::optional<LocatedEdge> edge =
+      LocateBladeWithinBand(view.photo, view.scale, view.scene, blade.edge, blade.on_left);
+  if (!edge) return std::nullopt;
   return UnlessRefused([&] {
     LocatedBlade within = blade;
-    within.edge = LocateBladeAlong(view.photo, view.scale, view.scene, guess);
+    within.edge = *std::move(edge);
     TrimToFree(view.photo, view.scene, &within);
     return within;
   });

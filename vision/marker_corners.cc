@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/marker_fit.h"
+#include "vision/marker_model.h"
 
 namespace bladecurve {
 namespace {
@@ -14,8 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Corners = std::array<Vector2d, 4>;
 using SquareSides = std::array<StraightEdge, 4>;  // side k from corner k to the next
-
-constexpr double kCellsPerMarker = 6;  // 4 of pattern and a black border of one on each side
 
 // How far the lens pushes the middle of a side off its chord, along (-dy, dx).
 double Bow(const std::optional<Camera>& camera, const Vector2d& from, const Vector2d& to) {
@@ -133,7 +132,7 @@ StraightEdgeGuess MarkerSide(const Corners& corners_px,
   const Vector2d& from = corners_px[static_cast<size_t>(side)];
   const Vector2d& to = corners_px[static_cast<size_t>((side + 1) % 4)];
   const double length = (to - from).norm();
-  const double cell = ShortestSide(corners_px) / kCellsPerMarker;
+  const double cell = ShortestSide(corners_px) / kMarkerCells;
   // Beyond the reach of the corners' blur; of small markers at least 70 % of the side stays.
   constexpr double kBlurReachPx = 4;
   const double trim = std::min(0.15 * length, kBlurReachPx + options.search_px);

@@ -5,11 +5,13 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
 #include "vision/blurred_step.h"
 #include "vision/marker_model.h"
+#include "vision/robust_statistics.h"
 #include "vision/straight_band.h"
 
 namespace bladecurve {
@@ -215,11 +217,10 @@ class Agreement {
       if (cell.count > 0) means.push_back(cell.sum_square / cell.count);
     }
     if (means.empty()) return {};
-    const auto middle = means.begin() + static_cast<long>(means.size() / 2);
-    std::nth_element(means.begin(), middle, means.end());
+    const double most = kFarWorse * Median(std::move(means));
     std::erase_if(pixels, [&](const MarkerPixel& pixel) {
       const Cell& cell = cells_[static_cast<size_t>(pixel.cell)];
-      return cell.sum_square > kFarWorse * *middle * cell.count;
+      return cell.sum_square > most * cell.count;
     });
     return pixels;
   }
@@ -259,24 +260,21 @@ class Agreement {
   std::array<Cell, MarkerModel::kCellsAcross * MarkerModel::kCellsAcross> cells_;
 };
 
-// Paper and ink by the lightest and darkest tenth; paper that is plain white is beyond it.
-MarkerVector StartFrom(const std::array<Vector2d, 4>& corners,
-                       const MarkerFrame& frame,
-                       double blur_px,
-                       const std::vector<double>& light) {
-  constexpr double kWhite = 0.98, kBeyond = 1.3;
-  MarkerVector start = MarkerVector::Zero();
-  std::array<Vector2d, 4> places;
-  for (size_t k = 0; k < 4; ++k) places[k] = frame.Place(corners[k]);
-  start.head<kHomography>() = HomographyFrom(places);
-  start[kBlur] = blur_px;
-  start[kInk] = light[light.size() / 10];
-  const double bright = light[light.size() * 9 / 10];
-  start[kPaper] = bright > kWhite ? kBeyond : bright;
-  return start;
+// Good to the rounding of single precision, which serves for a start.
+Eigen::Matrix<double, kHomography, 1> HomographyFrom(const std::array<Vector2d, 4>& corners,
+                                                     const MarkerFrame& frame) {
+  std::array<cv::Point2f, 4> places, cells;
+  for (size_t k = 0; k < 4; ++k) {
+    const Vector2d place = frame.Place(corners[k]), cell = CornerInCells(static_cast<int>(k));
+    places[k] = {static_cast<float>(place.x()), static_cast<float>(place.y())};
+    cells[k] = {static_cast<float>(cell.x()), static_cast<float>(cell.y())};
+  }
+  const cv::Matx33d homography = cv::getPerspectiveTransform(places.data(), cells.data());
+  return Eigen::Map<const Eigen::Matrix<double, kHomography, 1>>(homography.val);
 }
 
-std::vector<double> SortedLight(const cv::Mat& grey, const ToneCurve& tone, const cv::Rect& box) {
+// Some of the light in a box.
+std::vector<double> SampleLight(const cv::Mat& grey, const ToneCurve& tone, const cv::Rect& box) {
   constexpr double kSamples = 1000;
   Thinning thinning(kSamples / box.area());
   std::vector<double> light;
@@ -285,8 +283,22 @@ std::vector<double> SortedLight(const cv::Mat& grey, const ToneCurve& tone, cons
       if (thinning.Takes()) light.push_back(tone.linear[grey.at<uchar>(y, x)]);
     }
   }
-  std::sort(light.begin(), light.end());
   return light;
+}
+
+// Paper and ink by the lightest and darkest tenth; paper that is plain white is beyond it.
+MarkerVector StartFrom(const std::array<Vector2d, 4>& corners,
+                       const MarkerFrame& frame,
+                       double blur_px,
+                       const std::vector<double>& light) {
+  constexpr double kDarkest = 0.1, kLightest = 0.9, kWhite = 0.98, kBeyond = 1.3;
+  MarkerVector start = MarkerVector::Zero();
+  start.head<kHomography>() = HomographyFrom(corners, frame);
+  start[kBlur] = blur_px;
+  start[kInk] = SampleQuantile(light, kDarkest);
+  const double bright = SampleQuantile(light, kLightest);
+  start[kPaper] = bright > kWhite ? kBeyond : bright;
+  return start;
 }
 
 std::optional<SeenMarker> Placed(const SeenMarker& start,
@@ -325,7 +337,7 @@ std::optional<SeenMarker> FitMarker(const cv::Mat& grey,
   const cv::Rect box = BoxAbout(start, frame.cell_px, grey.size());
   if (box.empty()) return std::nullopt;
   const InkCells ink = InkCellsOf(start.id);
-  const MarkerVector first = StartFrom(corners, frame, start.blur_px, SortedLight(grey, tone, box));
+  const MarkerVector first = StartFrom(corners, frame, start.blur_px, SampleLight(grey, tone, box));
   std::vector<MarkerPixel> pixels =
       PixelsAtBorders(grey, tone, box, frame, MarkerModel(ink, frame, first), camera);
   const auto enough = std::max<size_t>(kFewestPixels, pixels.size() * 4 / 5);

@@ -17,11 +17,6 @@ using Eigen::Vector2d;
 
 constexpr double kComplete = 6;  // sigmas from a step to where it lacks less than 1e-9
 
-// Corners in cells, clockwise from the top left.
-Vector2d CornerInCells(int corner) {
-  return kMarkerCells * Vector2d(corner == 1 || corner == 2, corner >= 2);
-}
-
 // The columns (or rows) that a pixel sees: the share of each, and how it changes per cell of the
 // pixel's place and per cell of sigma.
 struct AxisShares {
@@ -102,17 +97,8 @@ InkCells InkCellsOf(int id) {
   return ink;
 }
 
-Eigen::Matrix<double, kHomography, 1> HomographyFrom(const std::array<Vector2d, 4>& places) {
-  Eigen::Matrix<double, kHomography, kHomography> equations;
-  Eigen::Matrix<double, kHomography, 1> cells;
-  for (int k = 0; k < 4; ++k) {
-    const double x = places[static_cast<size_t>(k)].x(), y = places[static_cast<size_t>(k)].y();
-    const Vector2d corner = CornerInCells(k);
-    equations.row(2 * k) << x, y, 1, 0, 0, 0, -x * corner.x(), -y * corner.x();
-    equations.row(2 * k + 1) << 0, 0, 0, x, y, 1, -x * corner.y(), -y * corner.y();
-    cells.segment<2>(2 * k) = corner;
-  }
-  return equations.partialPivLu().solve(cells);
+Vector2d CornerInCells(int corner) {
+  return kMarkerCells * Vector2d(corner == 1 || corner == 2, corner >= 2);
 }
 
 MarkerCorner CornerOf(const MarkerVector& at, int corner) {

@@ -44,9 +44,8 @@ struct MarkerFrame {
   }
 };
 
-// The homography that takes four places to the corners (0, 0), (6, 0), (6, 6), (0, 6).
-[[nodiscard]] Eigen::Matrix<double, kHomography, 1> HomographyFrom(
-    const std::array<Eigen::Vector2d, 4>& places);
+// A corner, clockwise from the top left, in cells: (0, 0), (6, 0), (6, 6), (0, 6).
+[[nodiscard]] Eigen::Vector2d CornerInCells(int corner);
 
 // A place, and how it moves per unit of the homography.
 struct MarkerCorner {
