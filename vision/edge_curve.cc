@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
 
 #include "vision/robust_statistics.h"
 
@@ -119,6 +120,12 @@ void Reject(size_t first, size_t end, std::vector<LocatedEdgePoint>& points) {
   for (size_t i = first; i < end; ++i) points[i].inlier = false;
 }
 
+// Of a least-squares fit whose last residual was `distance_px`.
+double WeightOf(const LocatedEdgePoint& point, double distance_px) {
+  const double pull = 1 / (1 + distance_px * distance_px / (kScale * kScale));
+  return pull / (point.sigma_px * point.sigma_px + kLeastSigma * kLeastSigma);
+}
+
 double PlaceOf(size_t i, size_t count) {
   return count > 1 ? 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1 : 0;
 }
@@ -135,9 +142,7 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
     Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
     Eigen::Matrix<double, kTerms, 2> right = Eigen::Matrix<double, kTerms, 2>::Zero();
     for (size_t i = 0; i < points.size(); i += stride) {
-      const double pull = 1 / (1 + distances[i] * distances[i] / (kScale * kScale));
-      const double weight =
-          pull / (points[i].sigma_px * points[i].sigma_px + kLeastSigma * kLeastSigma);
+      const double weight = WeightOf(points[i], distances[i]);
       normal += weight * terms[i] * terms[i].transpose();
       right += weight * terms[i] * (points[i].point_px - points.front().point_px).transpose();
     }
@@ -150,6 +155,44 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
     }
   }
   return distances;
+}
+
+std::optional<Eigen::Vector2d> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
+                                               const Eigen::Vector2d& place_px) {
+  constexpr double kFrom = 0.35;  // of the way from the edge's first point
+  constexpr double kWidestGap = 0.15;  // before the place, that a parabola may bridge
+  constexpr size_t kFewest = 20;
+  if (points.empty()) return std::nullopt;
+  const Eigen::Vector2d origin_px = points.front().point_px;
+  const Eigen::Vector2d along = place_px - origin_px;
+  const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
+  struct Seen {
+    Eigen::Vector3d row;
+    double across_px = 0;
+    const LocatedEdgePoint* point = nullptr;
+  };
+  std::vector<Seen> distal;
+  for (const LocatedEdgePoint& point : points) {
+    const Eigen::Vector2d from_origin = point.point_px - origin_px;
+    const double t = from_origin.dot(along) / along.squaredNorm();
+    if (point.inlier && t > kFrom && t < 1)
+      distal.push_back({{1, t - 1, (t - 1) * (t - 1)}, from_origin.dot(across), &point});
+  }
+  if (distal.size() < kFewest || distal.back().row[1] < -kWidestGap) return std::nullopt;
+  // The parabola's offset at t = 1, its first coefficient, is the one wanted.
+  Eigen::Vector3d parabola = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Seen& seen : distal) {
+      const double distance_px = round == 0 ? 0 : seen.across_px - parabola.dot(seen.row);
+      const double weight = WeightOf(*seen.point, distance_px);
+      normal += weight * seen.row * seen.row.transpose();
+      right += weight * seen.across_px * seen.row;
+    }
+    parabola = normal.ldlt().solve(right);
+  }
+  return place_px + parabola[0] * across;
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

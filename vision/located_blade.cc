@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "vision/along_across.h"
+#include "vision/edge_curve.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -79,6 +80,11 @@ void KeepFree(const Scene& scene, LocatedBlade* blade) {
                   "edges: only " + std::to_string(blade->used.size()) +
                       " px of free cutting edge; open the scissors wider or go nearer");
   }
+}
+
+void PlaceEndOnCourse(LocatedBlade* blade) {
+  blade->end.point_px =
+      AbreastOnCourse(blade->edge.points, blade->end.point_px).value_or(blade->end.point_px);
 }
 
 Matrix2d EndCovariance(const LocatedBlade& blade) {

@@ -41,6 +41,10 @@ void TrimToFree(const Photo& photo,
 // The same for an end that is known. Throws Refused{kEdgeTooShort}.
 void KeepFree(const Scene& scene, LocatedBlade* blade);
 
+// Moves the distal end across the edge, onto the course of its points: the arc of the tip tells how
+// far the edge goes, not where it lies.
+void PlaceEndOnCourse(LocatedBlade* blade);
+
 // Of the distal end: across the edge like a point of it, along the edge as found. px^2.
 [[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade);
 

@@ -252,7 +252,10 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
-  for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) KeepFree(scene, blade);
+  for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) {
+    KeepFree(scene, blade);
+    PlaceEndOnCourse(blade);
+  }
   const Blades& blades = parts.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
