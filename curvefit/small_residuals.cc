@@ -20,12 +20,13 @@ struct PoseObservations {
     return (T(1) + pose[kScale]) * point.cast<T>() - Vector2<T>(pose[kPivotX], pose[kPivotY]);
   }
 
-  // The upper end lies at (reach, -reach tan(zero/2)) of its blade's frame.
+  // The upper end lies at (reach, -reach tan(zero/2)) of its blade's frame, and is seen as far out of
+  // the blade as the edge.
   template <typename T>
   Vector2<T> UpperEnd(const T& reach, const T& zero, const T* pose) const {
     using std::cos, std::sin, std::tan;
     const T c = cos(pose[kUpperAngle]), s = sin(pose[kUpperAngle]);
-    const T v = -reach * tan(T(0.5) * zero);
+    const T v = -reach * tan(T(0.5) * zero) - pose[kOffset];
     return photo.upper_end_whitener.cast<T>() *
            (FromPivot(photo.upper_end, pose) - Vector2<T>(c * reach - s * v, s * reach + c * v));
   }
@@ -40,7 +41,8 @@ struct PoseObservations {
     const T ray = pose[kLowerAngle] + T(0.5) * zero;
     const Vector2<T> across(-sin(ray), cos(ray));
     const Vector2<T> spread = photo.lower_end_root.transpose().cast<T>() * across;
-    return FromPivot(*photo.lower_end, pose).dot(across) / sqrt(spread.squaredNorm());
+    const T off_ray = FromPivot(*photo.lower_end, pose).dot(across) - pose[kOffset];
+    return off_ray / sqrt(spread.squaredNorm());
   }
 
   template <typename T>

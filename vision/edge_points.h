@@ -34,8 +34,9 @@ struct EdgePoints {
       upper;  // cutting edge of the upper blade, from the crotch to its distal end
   std::vector<EdgePoint> lower;  // the same of the lower blade; may be empty
   LocatedPoint pivot;            // the screw, or the pivot inferred from rigid geometry
-  LocatedPoint upper_end,
-      lower_end;  // distal ends: where the edge begins to round off into the tip
+  // Distal ends: where the edge begins to round off into the tip; uncertain by themselves, what they
+  // share with the edges' points (common_offset_sigma_mm) left out.
+  LocatedPoint upper_end, lower_end;
   double theta_rad =
       std::numeric_limits<double>::quiet_NaN();  // opening angle; from the distal ends, or given
   double theta_sigma_rad = std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +44,7 @@ struct EdgePoints {
   double scale_relative_sigma = 0;   // standard uncertainty of mm per pixel, relative
   double correlation_length_mm = 0;  // neighbouring points closer than this are not independent
   double common_offset_sigma_mm =
-      0;  // an offset along the normals that all points share (tone curve, bevel)
+      0;  // an offset along the normals that all points and ends share (tone curve, bevel)
 };
 
 }  // namespace bladecurve

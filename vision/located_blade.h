@@ -45,8 +45,9 @@ void KeepFree(const Scene& scene, LocatedBlade* blade);
 // far the edge goes, not where it lies.
 void PlaceEndOnCourse(LocatedBlade* blade);
 
-// Of the distal end: across the edge like a point of it, along the edge as found. px^2.
-[[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade);
+// Of the distal end, but for an offset of standard uncertainty `shared_px` that all points and both
+// ends share: across the edge like a point of it, along the edge as found. px^2.
+[[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px);
 
 // The points used, without their uncertainties.
 [[nodiscard]] std::vector<Eigen::Vector2d> PointsOf(const LocatedBlade& blade);

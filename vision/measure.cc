@@ -109,14 +109,15 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
                         const LocatedBlade& upper,
                         const LocatedBlade& lower) {
   EdgePoints edges;
+  const double shared_px = upper.edge.common_sigma_px;
   edges.upper = ToFrame(frame, upper.used);
-  edges.lower = ToFrame(frame, DoubtedAlone(lower, upper.edge.common_sigma_px));
+  edges.lower = ToFrame(frame, DoubtedAlone(lower, shared_px));
   edges.pivot = frame.FromImage(pivot.point_px, pivot.covariance_px2);
-  edges.upper_end = frame.FromImage(upper.end.point_px, EndCovariance(upper));
-  edges.lower_end = frame.FromImage(lower.end.point_px, EndCovariance(lower));
+  edges.upper_end = frame.FromImage(upper.end.point_px, EndCovariance(upper, shared_px));
+  edges.lower_end = frame.FromImage(lower.end.point_px, EndCovariance(lower, shared_px));
   edges.scale_relative_sigma = map.relative_sigma();
   edges.correlation_length_mm = upper.edge.correlation_px * frame.mm_per_px();
-  edges.common_offset_sigma_mm = upper.edge.common_sigma_px * frame.mm_per_px();
+  edges.common_offset_sigma_mm = shared_px * frame.mm_per_px();
   return edges;
 }
 

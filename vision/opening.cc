@@ -36,12 +36,18 @@ Opening MeasureOpening(const PlaneMap& map,
   add(pivot.covariance_px2, [&](const Vector2d& d) {
     return angle(pivot.point_px + d, upper.end.point_px, lower.end.point_px);
   });
-  add(EndCovariance(upper), [&](const Vector2d& d) {
+  const double shared_px = upper.edge.common_sigma_px;
+  add(EndCovariance(upper, shared_px), [&](const Vector2d& d) {
     return angle(pivot.point_px, upper.end.point_px + d, lower.end.point_px);
   });
-  add(EndCovariance(lower), [&](const Vector2d& d) {
+  add(EndCovariance(lower, shared_px), [&](const Vector2d& d) {
     return angle(pivot.point_px, upper.end.point_px, lower.end.point_px + d);
   });
+  const double out_of_both = angle(pivot.point_px,
+                                   upper.end.point_px + upper.used.back().normal,
+                                   lower.end.point_px + lower.used.back().normal) -
+                             opening.theta_rad;
+  variance += shared_px * shared_px * out_of_both * out_of_both;
   // Blades that are no mirror images about the pivot: one of the edges is something else's border,
   // or the view is oblique. Either may turn the angle by as much as they differ.
   constexpr double kOfDifference = 0.3;

@@ -88,6 +88,7 @@ LocatedPoint SeenEnd(const TrueScissors& scissors, const Exposure& e, double sid
   const double off_across = photo.sigma_mm * e.noise.Gaussian();
   end.point_mm = e.Seen({t.point.x(), side * t.point.y()}) +
                  photo.noise_scale * (off_along * along + off_across * across);
+  end.point_mm -= side * e.offset * across;
   return end;
 }
 
