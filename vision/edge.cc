@@ -130,10 +130,6 @@ double MedianOf(double LocatedEdgePoint::*number, const std::vector<LocatedEdgeP
   return Median(std::move(numbers));
 }
 
-double TotalSigma(const LocatedEdge& edge) {
-  return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
-}
-
 EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
   Check(grey, guess, options);
   EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
@@ -149,6 +145,10 @@ double TypicalContrast(const LocatedEdge& edge) {
 
 double TypicalSigma(const std::vector<LocatedEdgePoint>& points) {
   return MedianOf(&LocatedEdgePoint::sigma_px, points);
+}
+
+double TotalSigma(const LocatedEdge& edge) {
+  return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
 }
 
 LocatedEdge LocateEdge(const cv::Mat& grey,

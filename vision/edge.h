@@ -61,6 +61,8 @@ struct LocatedEdge {
 // Medians over the points that count: background minus blade, linear light; sigma_px.
 [[nodiscard]] double TypicalContrast(const LocatedEdge& edge);
 [[nodiscard]] double TypicalSigma(const std::vector<LocatedEdgePoint>& points);
+// The same with what they share counted.
+[[nodiscard]] double TotalSigma(const LocatedEdge& edge);
 
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw
 // pixels in a narrow band. Of several transitions (bevel line, glint, shadow border) it takes the

@@ -185,17 +185,30 @@ class BladeLocator {
 
  private:
   // look(view, guess) in colours that part blade and background much better than grey does, where
-  // grey hides the edge.
+  // grey hides the edge, or shows it so faintly that the colours place it twice as well.
   template <typename Look>
   [[nodiscard]] LocatedEdge InGreyOr(const Look& look, const EdgeGuess& guess) {
-    constexpr double kGain = 1.5;  // times better separated; less is no other picture
+    constexpr double kFaintPx = 1, kClear = 0.45, kSurer = 0.5;
     try {
-      return LocateEdge(photo_.grey(), tone_, guess, options_);
+      LocatedEdge edge = LocateEdge(photo_.grey(), tone_, guess, options_);
+      if (TypicalSigma(edge.points) <= kFaintPx || edge.ambiguity > kClear) return edge;
+      const auto coloured = UnlessRefused([&] { return InColours(look, guess); });
+      return coloured && *coloured && TotalSigma(**coloured) < kSurer * TotalSigma(edge)
+                 ? **coloured
+                 : edge;
     } catch (const Refused&) {
-      const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-      if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) throw;
-      return look(view, guess);
+      if (auto coloured = InColours(look, guess)) return *std::move(coloured);
+      throw;
     }
+  }
+
+  // std::nullopt if colours part the sides little better than grey does. Throws Refused as `look`.
+  template <typename Look>
+  [[nodiscard]] std::optional<LocatedEdge> InColours(const Look& look, const EdgeGuess& guess) {
+    constexpr double kGain = 1.5;  // times better separated; less is no other picture
+    const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+    if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) return std::nullopt;
+    return look(view, guess);
   }
 
   // From a soft shadow's border to where the shadow begins, if that is seen.

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// What both edges together say of the dark bands beside them.
+// What colours say of an edge that hardly shows in grey, and both edges together of the dark bands
+// beside them.
 #include "vision/edge_pair.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "measured_blades.h"
+#include "vision/edge_images.h"
 
 namespace bladecurve {
 namespace {
@@ -75,6 +78,43 @@ TEST(LocateBlades, GoesFromASoftShadowsBorderToWhereTheShadowBegins) {
     const Measured measured(SceneWithShadow(elevation_rad, direction_rad, 0.4));
     EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.edge.points), kClosePx)
         << elevation_rad;
+  }
+}
+
+// Steel on a drape that is five grey values brighter, in grain that all colours share.
+TEST(LocateBladeAlong, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
+  constexpr int kSide = 300;
+  constexpr double kOffset = 200, kBlurPx = 0.8, kGrain = 3, kNoise = 1.5;
+  constexpr double kFaintPx = 1, kClosePx = 0.1;
+  const Eigen::Vector3d steel(120, 110, 100), drape(155, 105, 113);
+  const Eigen::Vector2d normal(std::cos(0.4), std::sin(0.4)), along(-normal.y(), normal.x());
+  const auto from_edge = [&](const Eigen::Vector2d& px) { return normal.dot(px) - kOffset; };
+  testing::Gaussian random(1);
+  cv::Mat bgr(kSide, kSide, CV_8UC3);
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const double ground =
+          0.5 * std::erfc(-from_edge(Eigen::Vector2d(x, y)) / kBlurPx / std::numbers::sqrt2);
+      const Eigen::Vector3d light = steel + ground * (drape - steel);
+      const double grain = kGrain * random();
+      for (int c = 0; c < 3; ++c)
+        bgr.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(light[c] + grain + kNoise * random());
+    }
+  }
+  const Photo photo = Measured::PhotoOf(bgr);
+  ScaleResult scale;
+  scale.tone = testing::GammaCurve(1);
+  const Eigen::Vector2d middle = (kOffset + 2) * normal + 60 * along;
+  EdgeGuess guess;
+  guess.path_px = {middle - 110 * along, middle + 110 * along};
+  guess.blade_on_left = false;
+  EXPECT_GT(TypicalSigma(LocateEdge(photo.grey(), scale.tone, guess).points), kFaintPx);
+  const LocatedEdge edge = LocateBladeAlong(photo, scale, {}, guess);
+  EXPECT_LT(TypicalSigma(edge.points), kClosePx);
+  for (const LocatedEdgePoint& point : edge.points) {
+    if (point.inlier) {
+      EXPECT_NEAR(from_edge(point.point_px), 0, 4 * kClosePx);
+    }
   }
 }
 
