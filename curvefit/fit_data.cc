@@ -205,7 +205,8 @@ PhotoData Prepare(const EdgePoints& photo, double length_mm) {
   }
   data.pivot_whitener = Root(photo.pivot.covariance_mm2, length_mm, kSmallestSigma).inverse();
   data.scale_weight = WeightOf(photo.scale_relative_sigma);
-  data.offset_weight = WeightOf(photo.common_offset_sigma_mm / length_mm);
+  data.offset_weight =
+      WeightOf(std::max(photo.common_offset_sigma_mm / length_mm, kSmallestEdgeSigma));
   return data;
 }
 

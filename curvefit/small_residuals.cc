@@ -20,8 +20,8 @@ struct PoseObservations {
     return (T(1) + pose[kScale]) * point.cast<T>() - Vector2<T>(pose[kPivotX], pose[kPivotY]);
   }
 
-  // The upper end lies at (reach, -reach tan(zero/2)) of its blade's frame, and is seen as far out of
-  // the blade as the edge.
+  // The upper end lies at (reach, -reach tan(zero/2)) of its blade's frame, and is seen as far out
+  // of the blade as the edge.
   template <typename T>
   Vector2<T> UpperEnd(const T& reach, const T& zero, const T* pose) const {
     using std::cos, std::sin, std::tan;

@@ -118,4 +118,12 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   }
 }
 
+void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
+  constexpr double kOfDifference = 0.3;
+  if (!PassUnlike(pivot)) return;
+  const double turned_px =
+      kOfDifference * std::abs(pivot.asymmetry) * BladeLength(pivot, *blades) / std::sqrt(2.0);
+  blades->upper.end.across_sigma_px = blades->lower.end.across_sigma_px = turned_px;
+}
+
 }  // namespace bladecurve

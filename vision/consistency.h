@@ -46,4 +46,9 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 // becomes ambiguous, and less certain by 0.6 of the way to the other transition.
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
 
+// The distal ends of edges that pass although they are no mirror images: one of the edges is
+// something else's border, or the view is oblique. Either may turn the angle by as much as they
+// differ.
+void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades);
+
 }  // namespace bladecurve

@@ -17,9 +17,10 @@ struct DistalEnd {
   Eigen::Vector2d point_px = Eigen::Vector2d::Zero();
   std::size_t index =
       0;  // first point of the edge that belongs to the tip; the size of the edge if none does
-  double along_sigma_px = 0;  // standard uncertainty along the edge
-  bool arc_seen = false;      // the tip's arc is seen to leave the edge there
-  double evidence = 0;        // of the arc, TipCap::Evidence
+  double along_sigma_px = 0;   // standard uncertainty along the edge
+  double across_sigma_px = 0;  // across it, beside that of the edge's points
+  bool arc_seen = false;       // the tip's arc is seen to leave the edge there
+  double evidence = 0;         // of the arc, TipCap::Evidence
 };
 
 struct DistalEnds {

@@ -159,7 +159,7 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
 
 std::optional<Eigen::Vector2d> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
                                                const Eigen::Vector2d& place_px) {
-  constexpr double kFrom = 0.35;  // of the way from the edge's first point
+  constexpr double kFrom = 0.35;       // of the way from the edge's first point
   constexpr double kWidestGap = 0.15;  // before the place, that a parabola may bridge
   constexpr size_t kFewest = 20;
   if (points.empty()) return std::nullopt;

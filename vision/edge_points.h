@@ -34,8 +34,8 @@ struct EdgePoints {
       upper;  // cutting edge of the upper blade, from the crotch to its distal end
   std::vector<EdgePoint> lower;  // the same of the lower blade; may be empty
   LocatedPoint pivot;            // the screw, or the pivot inferred from rigid geometry
-  // Distal ends: where the edge begins to round off into the tip; uncertain by themselves, what they
-  // share with the edges' points (common_offset_sigma_mm) left out.
+  // Distal ends: where the edge begins to round off into the tip; uncertain by themselves, what
+  // they share with the edges' points (common_offset_sigma_mm) left out.
   LocatedPoint upper_end, lower_end;
   double theta_rad =
       std::numeric_limits<double>::quiet_NaN();  // opening angle; from the distal ends, or given

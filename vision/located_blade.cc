@@ -91,8 +91,8 @@ Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px) {
   const Vector2d across = blade.used.back().normal;
   const Vector2d along(-across.y(), across.x());
   const double alone_px2 = std::pow(blade.edge.common_sigma_px, 2) - shared_px * shared_px;
-  const double across_sigma =
-      std::hypot(blade.used.back().sigma_px, std::sqrt(std::max(0.0, alone_px2)));
+  const double across_sigma = std::hypot(
+      blade.used.back().sigma_px, std::sqrt(std::max(0.0, alone_px2)), blade.end.across_sigma_px);
   return AlongAcross(along, blade.end.along_sigma_px, across_sigma);
 }
 

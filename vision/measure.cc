@@ -257,6 +257,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
     KeepFree(scene, blade);
     PlaceEndOnCourse(blade);
   }
+  DoubtUnlikeEnds(pivot, &parts.blades);
   const Blades& blades = parts.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "vision/consistency.h"
-
 namespace bladecurve {
 
 using Eigen::Matrix2d;
@@ -48,11 +46,7 @@ Opening MeasureOpening(const PlaneMap& map,
                                    lower.end.point_px + lower.used.back().normal) -
                              opening.theta_rad;
   variance += shared_px * shared_px * out_of_both * out_of_both;
-  // Blades that are no mirror images about the pivot: one of the edges is something else's border,
-  // or the view is oblique. Either may turn the angle by as much as they differ.
-  constexpr double kOfDifference = 0.3;
-  const double doubt = PassUnlike(pivot) ? kOfDifference * pivot.asymmetry : 0;
-  opening.sigma_rad = std::hypot(std::sqrt(variance), doubt);
+  opening.sigma_rad = std::sqrt(variance);
   return opening;
 }
 

@@ -86,6 +86,13 @@ TEST(FitStatistics, StatedSigmasHoldWithSystematicErrorsAndCorrelatedNeighbours)
   ExpectHonest(Draw(CurvedScissors(), {photo}, 3 * kDraws));
 }
 
+// An offset that both edges share moves both distal ends, and theta by twice as much.
+TEST(FitStatistics, StatedSigmasHoldWhereAnOffsetOutweighsTheNoise) {
+  SimulatedPhoto photo;
+  photo.offset_sigma_mm = 0.2;
+  ExpectHonest(Draw(CurvedScissors(), {photo}, 4 * kDraws));
+}
+
 TEST(FitStatistics, StatedSigmasHoldForThreePhotographs) {
   std::vector<SimulatedPhoto> photos(3);
   photos[1].theta_rad = 0.15;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// Points at an edge's ends that belong to another line.
+// Points at an edge's ends that belong to another line, and where an edge runs at its end.
 #include "vision/edge_curve.h"
 
 #include <gtest/gtest.h>
@@ -75,6 +75,37 @@ TEST(RejectDetachedEnds, ABendLongerThanTheGapIsTheEdgesOwn) {
 TEST(RejectDetachedEnds, WithoutAGapNothingIsDetached) {
   auto points = Edge(kLength, 0, [](int i) { return i >= kBeyond ? 2.0 : 0; });
   EXPECT_FALSE(RejectDetachedEnds(points));
+}
+
+// Of the edge above, without the noise.
+Eigen::Vector2d EndOnEdge() { return {kLength, 20.0 - 8.0}; }
+
+TEST(AbreastOnCourse, PutsAPlaceOffTheEdgeOntoIt) {
+  constexpr double kClosePx = 0.15;  // a cubic, where the parabola ends
+  const auto points = Edge(kLength, 0, [](int i) { return i % 12 == 0 ? 3.0 : 0; });
+  for (const double off_px : {-2.0, 0.0, 2.0}) {
+    const auto found = AbreastOnCourse(points, EndOnEdge() + Eigen::Vector2d(0, off_px));
+    ASSERT_TRUE(found) << off_px;
+    EXPECT_LT((*found - EndOnEdge()).norm(), kClosePx) << off_px;
+  }
+}
+
+TEST(AbreastOnCourse, LeavesOutWhatLiesBeyond) {
+  constexpr int kEnd = 250;
+  constexpr double kClosePx = 0.1;
+  const auto points =
+      Edge(kLength, 0, [](int i) { return i > kEnd ? 0.02 * (i - kEnd) * (i - kEnd) : 0; });
+  const double t = static_cast<double>(kEnd) / kLength;
+  const Eigen::Vector2d end(kEnd, 20 * t * t - 8 * t * t * t);
+  const auto found = AbreastOnCourse(points, end + Eigen::Vector2d(0, 1));
+  ASSERT_TRUE(found);
+  EXPECT_LT((*found - end).norm(), kClosePx);
+}
+
+TEST(AbreastOnCourse, BridgesNoWideGap) {
+  const auto points = Edge(240, kLength - 240, [](int) { return 0.0; });
+  EXPECT_FALSE(AbreastOnCourse(points, EndOnEdge()));
+  EXPECT_FALSE(AbreastOnCourse({}, EndOnEdge()));
 }
 
 }  // namespace

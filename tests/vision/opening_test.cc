@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "vision/consistency.h"
+
 namespace bladecurve {
 namespace {
 
@@ -25,22 +27,37 @@ LocatedBlade StraightBlade(double y_px) {
   return blade;
 }
 
-Opening OpeningOf(double asymmetry) {
+struct Spoilt {
+  double asymmetry = 0;
+  double common_sigma_px = 0;
+};
+
+Opening OpeningOf(const Spoilt& spoilt) {
   Pivot pivot;
   pivot.source = "screw";
   pivot.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
-  pivot.asymmetry = asymmetry;
-  return MeasureOpening(
-      PlaneMap::Uniform(1, 0, "px"), pivot, StraightBlade(-60), StraightBlade(60));
+  pivot.asymmetry = spoilt.asymmetry;
+  Blades blades{StraightBlade(-60), StraightBlade(60)};
+  for (LocatedBlade* blade : {&blades.upper, &blades.lower})
+    blade->edge.common_sigma_px = spoilt.common_sigma_px;
+  DoubtUnlikeEnds(pivot, &blades);
+  return MeasureOpening(PlaneMap::Uniform(1, 0, "px"), pivot, blades.upper, blades.lower);
 }
 
 TEST(MeasureOpening, DoubtsTheAngleOfEdgesThatAreNoMirrorImages) {
   constexpr double kAsymmetry = 0.05;  // of the length: one edge may be turned by 0.05 rad
-  const Opening alike = OpeningOf(0.005), unlike = OpeningOf(-kAsymmetry);
+  const Opening alike = OpeningOf({0.005}), unlike = OpeningOf({-kAsymmetry});
   EXPECT_DOUBLE_EQ(alike.theta_rad, 2 * std::atan(0.1));
   EXPECT_DOUBLE_EQ(unlike.theta_rad, alike.theta_rad);
   EXPECT_LT(alike.sigma_rad, 0.001);
   EXPECT_GT(unlike.sigma_rad, 0.25 * kAsymmetry);
+}
+
+// Both edges lie that far out of their blades: the errors of the two ends add up.
+TEST(MeasureOpening, IsAsUncertainAsTheOffsetThatBothEdgesShare) {
+  constexpr double kOffsetPx = 2, kReachPx = 600;
+  const Opening opening = OpeningOf({0, kOffsetPx});
+  EXPECT_NEAR(opening.sigma_rad, 2 * kOffsetPx / kReachPx, 0.05 * 2 * kOffsetPx / kReachPx);
 }
 
 }  // namespace
