@@ -128,8 +128,9 @@ void RefuseUnlessUsable(const LadderResult& ladder) {
                            !ladder.best.pair.first.cut_off && !ladder.best.pair.second.cut_off;
   if (!blades_seen && ladder.closed) {
     throw Refused(Reason::kClosed,
-                  "scene: the scissors are closed; open them by 5 to 90 degrees so that both "
-                  "cutting edges are free");
+                  "scene: the scissors are closed, or the gap between the blades looks like the "
+                  "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
+                  "are open, expose less, or use another ground or softer light");
   }
   if (ladder.best.pair.quality < kAcceptedQuality) {
     const std::string nearest = ladder.best.pair.doubt.empty()
