@@ -159,40 +159,40 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
 
 std::optional<Eigen::Vector2d> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
                                                const Eigen::Vector2d& place_px) {
-  constexpr double kFrom = 0.35;       // of the way from the edge's first point
-  constexpr double kWidestGap = 0.15;  // before the place, that a parabola may bridge
+  constexpr double kFrom = 0.25;       // of the way from the edge's first point
+  constexpr double kWidestGap = 0.15;  // before the place, that a cubic may bridge
   constexpr size_t kFewest = 20;
   if (points.empty()) return std::nullopt;
   const Eigen::Vector2d origin_px = points.front().point_px;
   const Eigen::Vector2d along = place_px - origin_px;
   const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
   struct Seen {
-    Eigen::Vector3d row;
+    Eigen::Vector4d row;
     double across_px = 0;
     const LocatedEdgePoint* point = nullptr;
   };
   std::vector<Seen> distal;
   for (const LocatedEdgePoint& point : points) {
     const Eigen::Vector2d from_origin = point.point_px - origin_px;
-    const double t = from_origin.dot(along) / along.squaredNorm();
-    if (point.inlier && t > kFrom && t < 1)
-      distal.push_back({{1, t - 1, (t - 1) * (t - 1)}, from_origin.dot(across), &point});
+    const double u = from_origin.dot(along) / along.squaredNorm() - 1;  // 0 at the place
+    if (point.inlier && u > kFrom - 1 && u < 0)
+      distal.push_back({{1, u, u * u, u * u * u}, from_origin.dot(across), &point});
   }
   if (distal.size() < kFewest || distal.back().row[1] < -kWidestGap) return std::nullopt;
-  // The parabola's offset at t = 1, its first coefficient, is the one wanted.
-  Eigen::Vector3d parabola = Eigen::Vector3d::Zero();
+  // The cubic's offset at the place, its first coefficient, is the one wanted.
+  Eigen::Vector4d cubic = Eigen::Vector4d::Zero();
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (const Seen& seen : distal) {
-      const double distance_px = round == 0 ? 0 : seen.across_px - parabola.dot(seen.row);
+      const double distance_px = round == 0 ? 0 : seen.across_px - cubic.dot(seen.row);
       const double weight = WeightOf(*seen.point, distance_px);
       normal += weight * seen.row * seen.row.transpose();
       right += weight * seen.across_px * seen.row;
     }
-    parabola = normal.ldlt().solve(right);
+    cubic = normal.ldlt().solve(right);
   }
-  return place_px + parabola[0] * across;
+  return place_px + cubic[0] * across;
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

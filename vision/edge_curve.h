@@ -32,8 +32,8 @@ struct PointRange {
                                     const PointRange& stretch,
                                     const PointRange& run);
 
-// The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the parabola
-// that its inlying points follow over the distal two thirds up to there. std::nullopt for fewer
+// The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the cubic
+// that its inlying points follow over the distal three quarters up to there. std::nullopt for fewer
 // than 20 such points, or where they end far before.
 [[nodiscard]] std::optional<Eigen::Vector2d> AbreastOnCourse(
     const std::vector<LocatedEdgePoint>& points, const Eigen::Vector2d& place_px);

@@ -81,7 +81,7 @@ TEST(RejectDetachedEnds, WithoutAGapNothingIsDetached) {
 Eigen::Vector2d EndOnEdge() { return {kLength, 20.0 - 8.0}; }
 
 TEST(AbreastOnCourse, PutsAPlaceOffTheEdgeOntoIt) {
-  constexpr double kClosePx = 0.15;  // a cubic, where the parabola ends
+  constexpr double kClosePx = 0.1;
   const auto points = Edge(kLength, 0, [](int i) { return i % 12 == 0 ? 3.0 : 0; });
   for (const double off_px : {-2.0, 0.0, 2.0}) {
     const auto found = AbreastOnCourse(points, EndOnEdge() + Eigen::Vector2d(0, off_px));
