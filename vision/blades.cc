@@ -274,9 +274,15 @@ std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Ma
     }
   }
   std::sort(pairs.begin(), pairs.end(), [](const BladePair& a, const BladePair& b) {
-    return a.quality > b.quality;
+    return Likelihood(a) > Likelihood(b);
   });
   return pairs;
+}
+
+double Likelihood(const BladePair& pair) {
+  constexpr double kCutOff = 0.5;
+  const bool whole = !pair.first.cut_off && !pair.second.cut_off;
+  return (whole ? 1 : kCutOff) * pair.quality;
 }
 
 }  // namespace bladecurve

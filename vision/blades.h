@@ -26,10 +26,15 @@ struct BladePair {
   std::string doubt;       // what lowered the quality most
 };
 
-// All gaps of the silhouette that might lie between two blades, best first; empty if none does.
-// `hidden` (CV_8UC1, may be empty) is non-zero where something covers what goes on: a shank that
-// ends there is cut off, not short.
+// All gaps of the silhouette that might lie between two blades, the likeliest first; empty if none
+// does. `hidden` (CV_8UC1, may be empty) is non-zero where something covers what goes on: a shank
+// that ends there is cut off, not short.
 [[nodiscard]] std::vector<BladePair> FindBladePairs(const Silhouette& silhouette,
                                                     const cv::Mat& hidden);
+
+// Of a pair against others of the same silhouette or photograph: its quality, less where a blade
+// runs out of the picture. Shanks without their rings look like such blades; whole blades at the
+// other end of them are the likelier reading.
+[[nodiscard]] double Likelihood(const BladePair& pair);
 
 }  // namespace bladecurve

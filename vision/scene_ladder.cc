@@ -15,13 +15,10 @@ namespace {
 
 constexpr int kSmallestSide = 120;  // no blade of such a picture has an edge that could be measured
 
-// Quality first; among thresholds that see the same blades the one whose contour lies on the
-// strongest transition. Shanks without their rings look like blades that run out of the picture:
-// whole blades at the other end of them are the likelier reading.
+// Likelihood first; among thresholds that see the same blades the one whose contour lies on the
+// strongest transition.
 double Merit(const Candidate& c) {
-  constexpr double kCutOff = 0.5;
-  const bool whole = !c.pair.first.cut_off && !c.pair.second.cut_off;
-  return (whole ? 1 : kCutOff) * c.pair.quality *
+  return Likelihood(c.pair) *
          std::sqrt(std::min(c.agreeing, 4) * c.strength * SizeOf(c.pair) * c.at->full_px_per_px());
 }
 
