@@ -123,7 +123,8 @@ void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
   if (!PassUnlike(pivot)) return;
   const double turned_px =
       kOfDifference * std::abs(pivot.asymmetry) * BladeLength(pivot, *blades) / std::sqrt(2.0);
-  blades->upper.end.across_sigma_px = blades->lower.end.across_sigma_px = turned_px;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower})
+    blade->end.across_sigma_px = std::hypot(blade->end.across_sigma_px, turned_px);
 }
 
 }  // namespace bladecurve

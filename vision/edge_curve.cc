@@ -157,8 +157,9 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
   return distances;
 }
 
-std::optional<Eigen::Vector2d> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
-                                               const Eigen::Vector2d& place_px) {
+std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
+                                             double correlation_px,
+                                             const Eigen::Vector2d& place_px) {
   constexpr double kFrom = 0.25;       // of the way from the edge's first point
   constexpr double kWidestGap = 0.15;  // before the place, that a cubic may bridge
   constexpr size_t kFewest = 20;
@@ -178,21 +179,31 @@ std::optional<Eigen::Vector2d> AbreastOnCourse(const std::vector<LocatedEdgePoin
     if (point.inlier && u > kFrom - 1 && u < 0)
       distal.push_back({{1, u, u * u, u * u * u}, from_origin.dot(across), &point});
   }
-  if (distal.size() < kFewest || distal.back().row[1] < -kWidestGap) return std::nullopt;
+  if (distal.size() < kFewest) return std::nullopt;
   // The cubic's offset at the place, its first coefficient, is the one wanted.
   Eigen::Vector4d cubic = Eigen::Vector4d::Zero();
+  double variance_px2 = 0;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero(), scatter = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (const Seen& seen : distal) {
       const double distance_px = round == 0 ? 0 : seen.across_px - cubic.dot(seen.row);
       const double weight = WeightOf(*seen.point, distance_px);
       normal += weight * seen.row * seen.row.transpose();
+      scatter += std::pow(weight * seen.point->sigma_px, 2) * seen.row * seen.row.transpose();
       right += weight * seen.across_px * seen.row;
     }
-    cubic = normal.ldlt().solve(right);
+    const auto solver = normal.ldlt();
+    cubic = solver.solve(right);
+    const Eigen::Vector4d gain = solver.solve(Eigen::Vector4d(Eigen::Vector4d::UnitX()));
+    variance_px2 = gain.dot(scatter * gain);
   }
-  return place_px + cubic[0] * across;
+  const double seen_px = (distal.back().row[1] - distal.front().row[1]) * along.norm();
+  const double together =
+      std::max(1.0, correlation_px * static_cast<double>(distal.size()) / std::max(1.0, seen_px));
+  const bool bridged = distal.back().row[1] > -kWidestGap;
+  return PlaceOnCourse{place_px + (bridged ? cubic[0] : 0) * across,
+                       std::sqrt(variance_px2 * together)};
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

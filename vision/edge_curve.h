@@ -32,10 +32,19 @@ struct PointRange {
                                     const PointRange& stretch,
                                     const PointRange& run);
 
+// A place on an edge's course, and its standard uncertainty across the edge.
+struct PlaceOnCourse {
+  Eigen::Vector2d point_px;
+  double across_sigma_px = 0;
+};
+
 // The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the cubic
-// that its inlying points follow over the distal three quarters up to there. std::nullopt for fewer
-// than 20 such points, or where they end far before.
-[[nodiscard]] std::optional<Eigen::Vector2d> AbreastOnCourse(
-    const std::vector<LocatedEdgePoint>& points, const Eigen::Vector2d& place_px);
+// that its inlying points follow over the distal three quarters up to there; errors of points
+// nearer than `correlation_px` go together. std::nullopt for fewer than 20 such points, or where
+// they end far before.
+[[nodiscard]] std::optional<PlaceOnCourse> AbreastOnCourse(
+    const std::vector<LocatedEdgePoint>& points,
+    double correlation_px,
+    const Eigen::Vector2d& place_px);
 
 }  // namespace bladecurve

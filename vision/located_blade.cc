@@ -83,8 +83,11 @@ void KeepFree(const Scene& scene, LocatedBlade* blade) {
 }
 
 void PlaceEndOnCourse(LocatedBlade* blade) {
-  blade->end.point_px =
-      AbreastOnCourse(blade->edge.points, blade->end.point_px).value_or(blade->end.point_px);
+  const std::optional<PlaceOnCourse> place =
+      AbreastOnCourse(blade->edge.points, blade->edge.correlation_px, blade->end.point_px);
+  if (!place) return;
+  blade->end.point_px = place->point_px;
+  blade->end.across_sigma_px = place->across_sigma_px;
 }
 
 Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -84,9 +85,9 @@ TEST(AbreastOnCourse, PutsAPlaceOffTheEdgeOntoIt) {
   constexpr double kClosePx = 0.1;
   const auto points = Edge(kLength, 0, [](int i) { return i % 12 == 0 ? 3.0 : 0; });
   for (const double off_px : {-2.0, 0.0, 2.0}) {
-    const auto found = AbreastOnCourse(points, EndOnEdge() + Eigen::Vector2d(0, off_px));
+    const auto found = AbreastOnCourse(points, 1, EndOnEdge() + Eigen::Vector2d(0, off_px));
     ASSERT_TRUE(found) << off_px;
-    EXPECT_LT((*found - EndOnEdge()).norm(), kClosePx) << off_px;
+    EXPECT_LT((found->point_px - EndOnEdge()).norm(), kClosePx) << off_px;
   }
 }
 
@@ -97,15 +98,34 @@ TEST(AbreastOnCourse, LeavesOutWhatLiesBeyond) {
       Edge(kLength, 0, [](int i) { return i > kEnd ? 0.02 * (i - kEnd) * (i - kEnd) : 0; });
   const double t = static_cast<double>(kEnd) / kLength;
   const Eigen::Vector2d end(kEnd, 20 * t * t - 8 * t * t * t);
-  const auto found = AbreastOnCourse(points, end + Eigen::Vector2d(0, 1));
+  const auto found = AbreastOnCourse(points, 1, end + Eigen::Vector2d(0, 1));
   ASSERT_TRUE(found);
-  EXPECT_LT((*found - end).norm(), kClosePx);
+  EXPECT_LT((found->point_px - end).norm(), kClosePx);
+}
+
+// Of the cubic at its end, 4 / sqrt(points) sigmas; more where points go together, and beyond the
+// last one.
+TEST(AbreastOnCourse, SaysHowFarThePointsBearItOut) {
+  const auto sigma = [](const std::vector<LocatedEdgePoint>& points, double correlation_px) {
+    return AbreastOnCourse(points, correlation_px, EndOnEdge()).value().across_sigma_px;
+  };
+  const auto straight = [](int) { return 0.0; };
+  const auto points = Edge(kLength, 0, straight);
+  const double alone = sigma(points, 1);
+  EXPECT_NEAR(alone, kNoisePx * 4 / std::sqrt(0.75 * kLength), 0.2 * alone);
+  EXPECT_NEAR(sigma(points, 16), 4 * alone, 0.1 * alone);
+  EXPECT_GT(sigma(Edge(265, kLength - 265, straight), 1), 2 * alone);
 }
 
 TEST(AbreastOnCourse, BridgesNoWideGap) {
-  const auto points = Edge(240, kLength - 240, [](int) { return 0.0; });
-  EXPECT_FALSE(AbreastOnCourse(points, EndOnEdge()));
-  EXPECT_FALSE(AbreastOnCourse({}, EndOnEdge()));
+  constexpr double kOffPx = 2;
+  const Eigen::Vector2d place_px = EndOnEdge() + Eigen::Vector2d(0, kOffPx);
+  const auto found =
+      AbreastOnCourse(Edge(240, kLength - 240, [](int) { return 0.0; }), 16, place_px);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->point_px, place_px);
+  EXPECT_GT(found->across_sigma_px, 0.25 * kOffPx);
+  EXPECT_FALSE(AbreastOnCourse({}, 1, EndOnEdge()));
 }
 
 }  // namespace
