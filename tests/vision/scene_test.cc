@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "process_folder.h"
+#include "vision/blades.h"
 #include "vision/closed_shape.h"
 #include "vision/flood.h"
 #include "vision/measure.h"
@@ -121,6 +123,30 @@ TEST(LooksClosed, IsNotARodThatParts) {
 TEST(LooksClosed, IsNotARodThatRunsOutOfThePicture) {
   const cv::Mat cut = RodWithRings(0)(cv::Rect(0, 0, 450, 300)).clone();
   EXPECT_FALSE(LooksClosed(FindSilhouettes(cut, 1).front()));
+}
+
+// Blades to the left whose tips lie beside markers, shanks to the right that the frame cuts before
+// their rings: either may be what goes on beyond.
+TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
+  cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
+  cv::Mat hidden = cv::Mat::zeros(mask.size(), CV_8UC1);
+  const cv::Point joint(250, 200);
+  for (const int sign : {-1, 1}) {
+    const cv::Point tip(80, 200 - 70 * sign);
+    const std::vector<cv::Point> blade{tip, joint + cv::Point(-4, -18), joint + cv::Point(4, 18)};
+    cv::fillConvexPoly(mask, blade, 255);
+    cv::line(mask, joint, {700, 200 + 185 * sign}, 255, 14);
+    cv::rectangle(hidden, tip + cv::Point(-40, -20), tip + cv::Point(-1, 20), 255, cv::FILLED);
+  }
+  const std::vector<BladePair> pairs = FindBladePairs(FindSilhouettes(mask, 1).front(), hidden);
+  const bool other_reading = std::any_of(pairs.begin(), pairs.end(), [&](const BladePair& pair) {
+    return pair.first.cut_off && pair.second.cut_off && pair.quality >= pairs.front().quality;
+  });
+  EXPECT_TRUE(other_reading) << "is as good by itself";
+  for (const BladeContour* blade : {&pairs.front().first, &pairs.front().second}) {
+    EXPECT_FALSE(blade->cut_off);
+    EXPECT_LT(blade->tip.x(), joint.x);
+  }
 }
 
 TEST(FindScene, RefusesClosedScissorsByThatReason) {
