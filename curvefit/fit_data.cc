@@ -18,9 +18,9 @@ namespace {
 // Nothing is known better than this fraction of the blade's length: keeps exact observations (sigma
 // 0) solvable.
 constexpr double kSmallestSigma = 1e-9;
-// Edge points and distal ends are not believed to more than this part of the blade's length, 0.1 um
-// for common scissors: beyond that the weights of points and of poses no longer fit into one
-// double, and no photograph comes near.
+// Edge points, distal ends and the offset they share are not believed to more than this part of the
+// blade's length, 0.1 um for common scissors: beyond that the weights of points and of poses no
+// longer fit into one double, and no photograph comes near.
 constexpr double kSmallestEdgeSigma = 2e-6;
 // A theta given without sigma: a protractor read to half a degree.
 constexpr double kGivenThetaSigma = 0.5 * std::numbers::pi / 180;

@@ -56,6 +56,12 @@ bool AreFarUnlikeAboutScrew(const Pivot& pivot, const ScaleResult& scale) {
   return scale.sheet && pivot.source == "screw" && AreFarUnlike(pivot.asymmetry);
 }
 
+// Whether the edges pass by a pivot that is seen or told so differently that one of them is in
+// doubt.
+bool PassUnlike(const Pivot& pivot) {
+  return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
+}
+
 }  // namespace
 
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
@@ -100,10 +106,6 @@ bool AreSuspect(double asymmetry) { return std::abs(asymmetry) >= 0.010; }
 bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
 bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
-
-bool PassUnlike(const Pivot& pivot) {
-  return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
-}
 
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.75, kShare = 0.6;  // ambiguity; sigma, of the way to the other one

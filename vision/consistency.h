@@ -37,10 +37,6 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 // Whether they pass it so differently that no view of blades in one plane accounts for it.
 [[nodiscard]] bool LieInNoPlane(double asymmetry);
 
-// Whether the edges pass by a pivot that is seen or told so differently that one of them is in
-// doubt.
-[[nodiscard]] bool PassUnlike(const Pivot& pivot);
-
 // Blades mirror each other. Where the edges do not, and would if the other transition beside one of
 // them were its border, that may well be so (a bright bevel on a bright ground): such an edge
 // becomes ambiguous, and less certain by 0.6 of the way to the other transition.

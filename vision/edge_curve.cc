@@ -14,6 +14,10 @@
 namespace bladecurve {
 namespace {
 
+using Eigen::Matrix4d;
+using Eigen::Vector2d;
+using Eigen::Vector4d;
+
 constexpr int kTerms =
     5;  // a quartic: blades with one bend are followed to a few tenths of a pixel
 constexpr int kRounds = 12;
@@ -59,12 +63,12 @@ class Course {
   Course(const std::vector<LocatedEdgePoint>& points, const PointRange& stretch)
       : origin_px_(points[stretch.first].point_px),
         along_(points[stretch.last].point_px - origin_px_),
-        across_(Eigen::Vector2d(-along_.y(), along_.x()).normalized()) {
-    Eigen::Matrix4d normal = 1e-9 * Eigen::Matrix4d::Identity();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
+        across_(Vector2d(-along_.y(), along_.x()).normalized()) {
+    Matrix4d normal = 1e-9 * Matrix4d::Identity();
+    Vector4d right = Vector4d::Zero();
     for (size_t i = stretch.first; i <= stretch.last; ++i) {
       if (!points[i].inlier) continue;
-      const Eigen::Vector4d row = RowAt(points[i].point_px);
+      const Vector4d row = RowAt(points[i].point_px);
       normal += row * row.transpose();
       right += across_.dot(points[i].point_px - origin_px_) * row;
     }
@@ -82,17 +86,17 @@ class Course {
   }
 
  private:
-  [[nodiscard]] double Distance(const Eigen::Vector2d& point_px) const {
+  [[nodiscard]] double Distance(const Vector2d& point_px) const {
     return across_.dot(point_px - origin_px_) - cubic_.dot(RowAt(point_px));
   }
 
-  [[nodiscard]] Eigen::Vector4d RowAt(const Eigen::Vector2d& point_px) const {
+  [[nodiscard]] Vector4d RowAt(const Vector2d& point_px) const {
     const double t = 2 * along_.dot(point_px - origin_px_) / along_.squaredNorm() - 1;
     return {1, t, t * t, t * t * t};
   }
 
-  Eigen::Vector2d origin_px_, along_, across_;
-  Eigen::Vector4d cubic_;
+  Vector2d origin_px_, along_, across_;
+  Vector4d cubic_;
 };
 
 // Whether a run beyond a gap leaves the course of the stretch before the gap. Longer than the gap,
@@ -126,6 +130,55 @@ double WeightOf(const LocatedEdgePoint& point, double distance_px) {
   return pull / (point.sigma_px * point.sigma_px + kLeastSigma * kLeastSigma);
 }
 
+// A point of an edge's distal part, in the frame of the chord from the edge's first point to a
+// place.
+struct DistalPoint {
+  const LocatedEdgePoint* point;
+  Vector4d row;  // powers of the way along the chord, -1 at its start and 0 at the place
+  double across_px = 0;
+};
+
+std::vector<DistalPoint> DistalPoints(const std::vector<LocatedEdgePoint>& points,
+                                      const Vector2d& along,
+                                      const Vector2d& across) {
+  constexpr double kFrom = 0.25;  // of the way
+  std::vector<DistalPoint> distal;
+  for (const LocatedEdgePoint& point : points) {
+    const Vector2d from_origin = point.point_px - points.front().point_px;
+    const double u = from_origin.dot(along) / along.squaredNorm() - 1;
+    if (point.inlier && u > kFrom - 1 && u < 0)
+      distal.push_back({&point, {1, u, u * u, u * u * u}, from_origin.dot(across)});
+  }
+  return distal;
+}
+
+// Of a robust cubic where its rows begin: its first coefficient. The variance takes the points for
+// independent.
+struct Offset {
+  double px = 0, variance_px2 = 0;
+};
+
+Offset OffsetAtPlace(const std::vector<DistalPoint>& distal) {
+  Vector4d cubic = Vector4d::Zero();
+  Offset offset;
+  for (int round = 0; round < kRounds; ++round) {
+    Matrix4d normal = Matrix4d::Zero(), scatter = Matrix4d::Zero();
+    Vector4d right = Vector4d::Zero();
+    for (const DistalPoint& at : distal) {
+      const double distance_px = round == 0 ? 0 : at.across_px - cubic.dot(at.row);
+      const double weight = WeightOf(*at.point, distance_px);
+      normal += weight * at.row * at.row.transpose();
+      scatter += std::pow(weight * at.point->sigma_px, 2) * at.row * at.row.transpose();
+      right += weight * at.across_px * at.row;
+    }
+    const auto solver = normal.ldlt();
+    cubic = solver.solve(right);
+    const Vector4d gain = solver.solve(Vector4d(Vector4d::UnitX()));
+    offset = {cubic[0], gain.dot(scatter * gain)};
+  }
+  return offset;
+}
+
 double PlaceOf(size_t i, size_t count) {
   return count > 1 ? 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1 : 0;
 }
@@ -149,8 +202,7 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
     const Eigen::Matrix<double, kTerms, 2> coefficients = normal.ldlt().solve(right);
     const size_t wanted = round + 1 < kRounds ? stride : 1;
     for (size_t i = 0; i < points.size(); i += wanted) {
-      const Eigen::Vector2d on_curve =
-          points.front().point_px + coefficients.transpose() * terms[i];
+      const Vector2d on_curve = points.front().point_px + coefficients.transpose() * terms[i];
       distances[i] = points[i].normal.dot(points[i].point_px - on_curve);
     }
   }
@@ -159,51 +211,22 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
 
 std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
                                              double correlation_px,
-                                             const Eigen::Vector2d& place_px) {
-  constexpr double kFrom = 0.25;       // of the way from the edge's first point
-  constexpr double kWidestGap = 0.15;  // before the place, that a cubic may bridge
+                                             const Vector2d& place_px) {
+  constexpr double kWidestGap = 0.15;  // of the way to the place, that a cubic may bridge
   constexpr size_t kFewest = 20;
   if (points.empty()) return std::nullopt;
-  const Eigen::Vector2d origin_px = points.front().point_px;
-  const Eigen::Vector2d along = place_px - origin_px;
-  const Eigen::Vector2d across = Eigen::Vector2d(-along.y(), along.x()).normalized();
-  struct Seen {
-    Eigen::Vector4d row;
-    double across_px = 0;
-    const LocatedEdgePoint* point = nullptr;
-  };
-  std::vector<Seen> distal;
-  for (const LocatedEdgePoint& point : points) {
-    const Eigen::Vector2d from_origin = point.point_px - origin_px;
-    const double u = from_origin.dot(along) / along.squaredNorm() - 1;  // 0 at the place
-    if (point.inlier && u > kFrom - 1 && u < 0)
-      distal.push_back({{1, u, u * u, u * u * u}, from_origin.dot(across), &point});
-  }
+  const Vector2d along = place_px - points.front().point_px;
+  const Vector2d across = Vector2d(-along.y(), along.x()).normalized();
+  const std::vector<DistalPoint> distal = DistalPoints(points, along, across);
   if (distal.size() < kFewest) return std::nullopt;
-  // The cubic's offset at the place, its first coefficient, is the one wanted.
-  Eigen::Vector4d cubic = Eigen::Vector4d::Zero();
-  double variance_px2 = 0;
-  for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix4d normal = Eigen::Matrix4d::Zero(), scatter = Eigen::Matrix4d::Zero();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero();
-    for (const Seen& seen : distal) {
-      const double distance_px = round == 0 ? 0 : seen.across_px - cubic.dot(seen.row);
-      const double weight = WeightOf(*seen.point, distance_px);
-      normal += weight * seen.row * seen.row.transpose();
-      scatter += std::pow(weight * seen.point->sigma_px, 2) * seen.row * seen.row.transpose();
-      right += weight * seen.across_px * seen.row;
-    }
-    const auto solver = normal.ldlt();
-    cubic = solver.solve(right);
-    const Eigen::Vector4d gain = solver.solve(Eigen::Vector4d(Eigen::Vector4d::UnitX()));
-    variance_px2 = gain.dot(scatter * gain);
-  }
-  const double seen_px = (distal.back().row[1] - distal.front().row[1]) * along.norm();
+  const Offset offset = OffsetAtPlace(distal);
+  const double first = distal.front().row[1], last = distal.back().row[1];
+  const double seen_px = (last - first) * along.norm();
   const double together =
       std::max(1.0, correlation_px * static_cast<double>(distal.size()) / std::max(1.0, seen_px));
-  const bool bridged = distal.back().row[1] > -kWidestGap;
-  return PlaceOnCourse{place_px + (bridged ? cubic[0] : 0) * across,
-                       std::sqrt(variance_px2 * together)};
+  const bool bridged = last > -kWidestGap;
+  return PlaceOnCourse{place_px + (bridged ? offset.px : 0) * across,
+                       std::sqrt(offset.variance_px2 * together)};
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

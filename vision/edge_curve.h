@@ -40,8 +40,8 @@ struct PlaceOnCourse {
 
 // The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the cubic
 // that its inlying points follow over the distal three quarters up to there; errors of points
-// nearer than `correlation_px` go together. std::nullopt for fewer than 20 such points, or where
-// they end far before.
+// nearer than `correlation_px` go together. Where they end far before, the place itself, as
+// uncertain as the cubic is there. std::nullopt for fewer than 20 such points.
 [[nodiscard]] std::optional<PlaceOnCourse> AbreastOnCourse(
     const std::vector<LocatedEdgePoint>& points,
     double correlation_px,

@@ -20,6 +20,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kAsGood = 0.45;  // ambiguity; below, the other transition is no match
+
 // The edge as scene finding traced it, for want of a better one: good to a pixel of the small
 // picture, and marked as doubtful.
 LocatedEdge AsTraced(const Scene& scene, const SceneBlade& blade, bool left) {
@@ -77,10 +79,7 @@ bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
   return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= kNarrowest;
 }
 
-bool HasDarkBand(const LocatedEdge& edge) {
-  constexpr double kAsGood = 0.45;  // below, the other is no match
-  return HasDarkBand(edge, kAsGood);
-}
+bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
 
 // Light that rises so slowly, going outwards, that the edge is vague although print bounds its
 // blur, and no second line near: a shadow's border.
@@ -188,14 +187,12 @@ class BladeLocator {
   // grey hides the edge, or shows it so faintly that the colours place it twice as well.
   template <typename Look>
   [[nodiscard]] LocatedEdge InGreyOr(const Look& look, const EdgeGuess& guess) {
-    constexpr double kFaintPx = 1, kClear = 0.45, kSurer = 0.5;
+    constexpr double kFaintPx = 1, kSurer = 0.5;
     try {
       LocatedEdge edge = LocateEdge(photo_.grey(), tone_, guess, options_);
-      if (TypicalSigma(edge.points) <= kFaintPx || edge.ambiguity > kClear) return edge;
-      const auto coloured = UnlessRefused([&] { return InColours(look, guess); });
-      return coloured && *coloured && TotalSigma(**coloured) < kSurer * TotalSigma(edge)
-                 ? **coloured
-                 : edge;
+      if (TypicalSigma(edge.points) <= kFaintPx || edge.ambiguity > kAsGood) return edge;
+      const auto coloured = UnlessRefused([&] { return InColours(look, guess).value_or(edge); });
+      return coloured && TotalSigma(*coloured) < kSurer * TotalSigma(edge) ? *coloured : edge;
     } catch (const Refused&) {
       if (auto coloured = InColours(look, guess)) return *std::move(coloured);
       throw;

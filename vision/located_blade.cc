@@ -41,6 +41,11 @@ double SmearedByTip(const std::vector<Vector2d>& points) {
   return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
 }
 
+// What is uncertain about where the edge lies, beside an offset that both edges share. px^2.
+double AloneVariance(const LocatedEdge& edge, double shared_px) {
+  return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - shared_px * shared_px);
+}
+
 }  // namespace
 
 void TrimToFree(const Photo& photo,
@@ -93,9 +98,9 @@ void PlaceEndOnCourse(LocatedBlade* blade) {
 Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px) {
   const Vector2d across = blade.used.back().normal;
   const Vector2d along(-across.y(), across.x());
-  const double alone_px2 = std::pow(blade.edge.common_sigma_px, 2) - shared_px * shared_px;
-  const double across_sigma = std::hypot(
-      blade.used.back().sigma_px, std::sqrt(std::max(0.0, alone_px2)), blade.end.across_sigma_px);
+  const double across_sigma = std::hypot(blade.used.back().sigma_px,
+                                         std::sqrt(AloneVariance(blade.edge, shared_px)),
+                                         blade.end.across_sigma_px);
   return AlongAcross(along, blade.end.along_sigma_px, across_sigma);
 }
 
@@ -118,12 +123,11 @@ double EdgeSigmaPx(const LocatedBlade& blade) {
 
 std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
   std::vector<LocatedEdgePoint> points = lower.used;
-  const double own_px = lower.edge.common_sigma_px;
-  if (!(own_px > upper_common_px)) return points;
+  const double alone_px2 = AloneVariance(lower.edge, upper_common_px);
+  if (!(alone_px2 > 0)) return points;
   const double length_px = (points.back().point_px - points.front().point_px).norm();
   const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
-  const double variance_px2 =
-      (own_px * own_px - upper_common_px * upper_common_px) * std::max(1.0, independent);
+  const double variance_px2 = alone_px2 * std::max(1.0, independent);
   for (LocatedEdgePoint& point : points) {
     point.sigma_px = std::sqrt(point.sigma_px * point.sigma_px + variance_px2);
   }

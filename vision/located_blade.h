@@ -42,7 +42,7 @@ void TrimToFree(const Photo& photo,
 void KeepFree(const Scene& scene, LocatedBlade* blade);
 
 // Moves the distal end across the edge, onto the course of its points: the arc of the tip tells how
-// far the edge goes, not where it lies.
+// far the edge goes, not where it lies. Sets the end's across_sigma_px.
 void PlaceEndOnCourse(LocatedBlade* blade);
 
 // Of the distal end, but for an offset of standard uncertainty `shared_px` that all points and both

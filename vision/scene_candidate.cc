@@ -122,7 +122,7 @@ Rung SeenIn(const cv::Mat& mask,
       candidate.mask = mask;
       quality = candidate.pair.quality;
       seen.candidates.push_back(std::move(candidate));
-      break;  // the best pair of each thing
+      break;  // the likeliest pair of each thing
     }
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
   }
