@@ -96,6 +96,19 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
                     "--pivot X,Y");
 }
 
+void RefuseUnconfirmedOutline(const Scene& scene, const Pivot& pivot) {
+  constexpr double kMost = 0.07;  // of the length; blades photographed at a slant differ by 0.05
+  const bool seen = pivot.source != "geometry";
+  if (!scene.outlined || (seen && std::abs(pivot.asymmetry) < kMost)) return;
+  throw Refused(
+      Reason::kLowContrast,
+      "edges: shadows or a ground as bright as the blades leave nothing but lines to tell "
+      "them by, and " +
+          std::string(seen ? "these do not mirror each other about the pivot"
+                           : "no screw is seen about which these mirror each other") +
+          "; use another ground or softer light, or say where the screw is: --pivot X,Y");
+}
+
 // Of the blades' length, as all that follow. Straight and curved scissors seen at a slant reach
 // 0.1, bandage scissors 0.25 and more.
 bool LieInNoPlane(double asymmetry) { return std::abs(asymmetry) > 0.2; }

@@ -5,6 +5,7 @@
 #include "vision/located_blade.h"
 #include "vision/pivot.h"
 #include "vision/scale.h"
+#include "vision/scene.h"
 
 namespace bladecurve {
 
@@ -25,6 +26,10 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 // Throws Refused{kLowContrast} where the edges, seen from a known side and about a pivot that is
 // seen, are no mirror images by far: one of them is something else's border.
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
+
+// Throws Refused{kLowContrast} for blades that were told from their ground by sharp lines alone, if
+// no pivot that is seen, or given, confirms that these mirror each other.
+void RefuseUnconfirmedOutline(const Scene& scene, const Pivot& pivot);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
 // doubt (far unlike: that one of them, or the pivot, is wrong), or that it is worth a look whether

@@ -120,13 +120,12 @@ Scene SceneFrom(const Candidate& found) {
   scene.path_sigma_px = at.full_px_per_px();
   scene.quality = pair.quality;
   scene.method = found.method;
+  scene.outlined = found.outlined;
   return scene;
 }
 
 void RefuseUnlessUsable(const LadderResult& ladder) {
-  const bool blades_seen = ladder.best.pair.quality >= kAcceptedQuality &&
-                           !ladder.best.pair.first.cut_off && !ladder.best.pair.second.cut_off;
-  if (!blades_seen && ladder.closed) {
+  if (!ShowsWholeBlades(ladder) && ladder.closed) {
     throw Refused(Reason::kClosed,
                   "scene: the scissors are closed, or the gap between the blades looks like the "
                   "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
@@ -165,7 +164,7 @@ Scene FindScene(const Photo& photo,
     scene.pivot_px = *hints.pivot_px;
     scene.pivot_sigma_px = 1;
   }
-  if (scene.quality < 0.75) scene.warnings.push_back("scene_doubtful");
+  if (scene.quality < 0.75 || scene.outlined) scene.warnings.push_back("scene_doubtful");
   log->Ran("trace", "edges followed on the small picture");
   if (log->wants_pictures()) log->Picture("scene", DrawScene(ladder.best, scene));
   return scene;

@@ -66,6 +66,35 @@ void DoubtSoftEdges(Candidate* candidate) {
   candidate->pair.doubt = "an edge is soft like a shadow's";
 }
 
+// Whether the mask goes on where a blade points, or a little beside, beyond its tip.
+bool GoesOn(const cv::Mat& mask, const Vector2d& pivot, const BladeContour& blade) {
+  constexpr double kFrom = 0.15, kTo = 2, kBeside = 0.25;  // of the blade's length
+  constexpr double kMostly = 0.4;
+  const Vector2d along = (blade.tip - pivot).normalized(), across(-along.y(), along.x());
+  const auto is_set = [&](double way, double beside) {
+    const Vector2d place = blade.tip + way * along + beside * across;
+    const cv::Point pixel(NearestPixel(place.x()), NearestPixel(place.y()));
+    return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
+  };
+  int ways = 0, set = 0;
+  for (double way = kFrom * blade.length; way < kTo * blade.length; ++way, ++ways) {
+    bool any = false;
+    for (double beside = -kBeside * blade.length; beside <= kBeside * blade.length && !any;
+         ++beside)
+      any = is_set(way, beside);
+    if (any) ++set;
+  }
+  return set > kMostly * ways;
+}
+
+// Blades beyond whose tips the mask goes on are stubs of shanks that a glint or their ground cut in
+// pieces.
+void DoubtStubs(const cv::Mat& mask, BladePair* pair) {
+  if (!GoesOn(mask, pair->pivot, pair->first) || !GoesOn(mask, pair->pivot, pair->second)) return;
+  pair->quality = pair->worst_grade = 0;
+  pair->doubt = "both blades go on beyond their tips";
+}
+
 bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
   if (hints.tips_direction) {
     const Vector2d towards = 0.5 * (pair.first.tip + pair.second.tip) - pair.pivot;
@@ -114,11 +143,12 @@ Rung SeenIn(const cv::Mat& mask,
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
     double quality = 0;
     for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
+      DoubtStubs(mask, &pair);
       if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
       Candidate candidate = like;
       JudgeEdges(pair, &candidate);
       candidate.pair = std::move(pair);
-      DoubtSoftEdges(&candidate);
+      if (!like.outlined) DoubtSoftEdges(&candidate);
       candidate.mask = mask;
       quality = candidate.pair.quality;
       seen.candidates.push_back(std::move(candidate));

@@ -18,8 +18,9 @@ struct Candidate {
   BladePair pair;
   std::shared_ptr<const ScaledImage> at;
   cv::Mat mask;
-  std::string method;  // "grey", "colour", "shadow-blind", "flood"
+  std::string method;  // "grey", "colour", "shadow-blind", "flood", "regions"
   double threshold = 0;
+  bool outlined = false;  // the mask ends at sharp borders, of which a soft shadow has none
   double strength =
       0;  // mean transition across the inner edges: the right threshold has the strongest
   double sharpness = 0;  // of the softer inner edge: 1 for a step, 0.3 for a soft shadow

@@ -81,6 +81,11 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
 
 }  // namespace
 
+bool ShowsWholeBlades(const LadderResult& result) {
+  const BladePair& pair = result.best.pair;
+  return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
+}
+
 LadderResult ClimbLadder(const Photo& photo,
                          const std::vector<SeenMarker>& markers,
                          const StoredHints& hints,
@@ -106,8 +111,15 @@ LadderResult ClimbLadder(const Photo& photo,
     log->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
-  result = Consider(FloodRung(view, SmallColour(view, kFloodSide)), "rung-flood", &all, log);
+  const ColourPictures outlines = SmallColour(view, kOutlineSide);
+  result = Consider(FloodRung(view, outlines), "rung-flood", &all, log);
   log->Ran("scene-flood", "no threshold separates the blades");
+  if (ShowsWholeBlades(result)) {
+    log->Skipped("scene-regions", "the flood left blades dry");
+    return result;
+  }
+  result = Consider(RegionRung(view, outlines), "rung-regions", &all, log);
+  log->Ran("scene-regions", "the flood ran into the blades");
   return result;
 }
 

@@ -19,6 +19,9 @@ struct LadderResult {
   bool closed = false;   // something looks like closed scissors, in several masks of a rung
 };
 
+// Whether blades were found that could be measured.
+[[nodiscard]] bool ShowsWholeBlades(const LadderResult& result);
+
 // Tries one rung after the other until one gives a consistent pair of blades; logs what ran and
 // why.
 [[nodiscard]] LadderResult ClimbLadder(const Photo& photo,

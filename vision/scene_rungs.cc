@@ -10,6 +10,8 @@
 
 #include "vision/flood.h"
 #include "vision/parallel.h"
+#include "vision/region_merging.h"
+#include "vision/sharp_gradient.h"
 #include "vision/silhouette.h"
 
 namespace bladecurve {
@@ -80,17 +82,38 @@ cv::Mat LabDistance(const SceneView& view, const ColourPictures& colour) {
   return distance;
 }
 
-// What stays dry up to a level, without the specks of grain that cling to it. Walls are thicker
-// than what they enclose by half of what was closed, so that much may go.
-cv::Mat DryMask(const cv::Mat& levels, double level, int closed_px) {
+// What lies above a level, without the specks of grain that cling to it, and without its outermost
+// pixel, which is outline.
+cv::Mat MaskAboveLevel(const cv::Mat& levels, double level, int speck_px) {
   cv::Mat mask = levels > level;
   cv::morphologyEx(mask,
                    mask,
                    cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {speck_px, speck_px}));
   cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
   return mask;
 }
+
+// Adds what shows above levels that are in units of the usual gradient. Below the lowest all is
+// apart; above the highest, most metal is background.
+void AddLevels(const cv::Mat& levels,
+               int speck_px,
+               const Candidate& like,
+               const SceneView& view,
+               const cv::Mat& ignore,
+               Rung* rung) {
+  constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
+  std::vector<Rung> seen = ParallelMap(static_cast<int>(std::size(kLevels)), [&](int i) {
+    Candidate at_level = like;
+    at_level.threshold = kLevels[i];
+    return SeenIn(
+        MaskAboveLevel(levels, at_level.threshold, speck_px), at_level, ignore, view.hints);
+  });
+  for (Rung& mask : seen) Add(std::move(mask), rung);
+  rung->distance = levels;
+}
+
+constexpr int kClosedPx[] = {3, 5};  // narrow gaps between blades, and gaps in faint outlines
 
 }  // namespace
 
@@ -119,19 +142,30 @@ Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
 }
 
 Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
-  // In units of the usual gradient. Below, the ground is dry too; above, most metal is wet.
-  constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
-  const cv::Mat distance = LabDistance(view, colour);
+  const cv::Mat ground = GroundAtFrame(LabDistance(view, colour));
   const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
+  const Candidate like{{}, colour.lab, {}, "flood"};
   Rung rung;
-  for (const int closed_px : {3, 5}) {  // narrow gaps between blades, and gaps in faint outlines
-    rung.distance = FloodLevels(sharp_gradient, distance, colour.ignore, closed_px);
-    std::vector<Rung> seen = ParallelMap(static_cast<int>(std::size(kLevels)), [&](int i) {
-      const Candidate like{{}, colour.lab, {}, "flood", kLevels[i]};
-      const cv::Mat dry = DryMask(rung.distance, like.threshold, closed_px);
-      return SeenIn(dry, like, colour.ignore, view.hints);
-    });
-    for (Rung& mask : seen) Add(std::move(mask), &rung);
+  for (const int closed_px : kClosedPx) {
+    cv::Mat levels = FloodLevels(Walls(sharp_gradient, closed_px, colour.ignore), ground);
+    if (!colour.ignore.empty()) levels.setTo(0, colour.ignore);
+    // Walls are thicker than what they enclose by half of what was closed, so that much may go.
+    AddLevels(levels, closed_px, like, view, colour.ignore, &rung);
+  }
+  return rung;
+}
+
+Rung RegionRung(const SceneView& view, const ColourPictures& colour) {
+  constexpr int kSpeckPx = 5;
+  cv::Mat ground = GroundAtFrame(LabDistance(view, colour));
+  if (!colour.ignore.empty()) ground.setTo(255, colour.ignore);
+  const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
+  Candidate like{{}, colour.lab, {}, "regions"};
+  like.outlined = true;
+  Rung rung;
+  for (const int closed_px : kClosedPx) {
+    const cv::Mat levels = MergingLevels(Walls(sharp_gradient, closed_px, colour.ignore), ground);
+    AddLevels(levels, kSpeckPx, like, view, colour.ignore, &rung);
   }
   return rung;
 }

@@ -13,7 +13,7 @@ namespace bladecurve {
 // Sides of the small pictures, px. Blades of a sixth of the picture keep 100 px; more costs time
 // and finds no more. Walls are pixels thick: gaps between blades need more of them.
 inline constexpr int kSmallSide = 640;
-inline constexpr int kFloodSide = 960;
+inline constexpr int kOutlineSide = 960;
 
 // By lightness alone.
 [[nodiscard]] Rung GreyRung(const SceneView& view);
@@ -21,7 +21,10 @@ inline constexpr int kFloodSide = 960;
 [[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
 // By what a shadow does not do to the background.
 [[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
-// By sharp outlines, whatever the colours.
+// By sharp outlines without a gap, whatever the colours.
 [[nodiscard]] Rung FloodRung(const SceneView& view, const ColourPictures& colour);
+// By outlines that are sharp on the average of their length. Soft shadows have none; but a bevel's
+// or a hard shadow's line is one, too.
+[[nodiscard]] Rung RegionRung(const SceneView& view, const ColourPictures& colour);
 
 }  // namespace bladecurve

@@ -60,6 +60,17 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
 }
 
+TEST(RefuseUnconfirmedOutline, TakesLinesForEdgesIfTheyMirrorEachOtherAboutAPivotThatIsSeen) {
+  Scene plain, outlined;
+  outlined.outlined = true;
+  Pivot inferred = PivotSeen(0);
+  inferred.source = "geometry";
+  EXPECT_NO_THROW(RefuseUnconfirmedOutline(outlined, PivotSeen(0.05)));
+  EXPECT_THROW(RefuseUnconfirmedOutline(outlined, PivotSeen(-0.1)), Refused);
+  EXPECT_THROW(RefuseUnconfirmedOutline(outlined, inferred), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedOutline(plain, inferred));
+}
+
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
   ScaleResult tilt_known, tilt_unknown;
   tilt_known.sheet.emplace();

@@ -19,7 +19,10 @@
 #include "vision/photo.h"
 #include "vision/png_writer.h"
 #include "vision/refused.h"
+#include "vision/region_merging.h"
 #include "vision/render.h"
+#include "vision/scene_candidate.h"
+#include "vision/sharp_gradient.h"
 #include "vision/silhouette.h"
 #include "vision/stage_log.h"
 
@@ -67,24 +70,50 @@ cv::Mat DiscAndCloud() {
   return lab;
 }
 
-TEST(FloodLevels, WallInWhatIsSharplyOutlinedWhateverItsColour) {
-  const cv::Mat lab = DiscAndCloud();
-  const cv::Mat levels =
-      FloodLevels(SharpGradient(lab), cv::Mat::zeros(lab.size(), CV_32FC1), {}, 3);
-  const float outside = levels.at<float>(20, 200);
-  const float disc = levels.at<float>(100, 100);
-  const float cloud = levels.at<float>(100, 300);
-  EXPECT_GT(disc, 10 * outside);
-  EXPECT_LT(cloud, 0.2F * disc);
+double MostIn(const cv::Mat& levels, const cv::Rect& part) {
+  double most = 0;
+  cv::minMaxLoc(levels(part), nullptr, &most);
+  return most;
 }
 
-TEST(FloodLevels, AreZeroWhereNothingIsToBeLookedAt) {
+const cv::Rect kOutside = {180, 10, 40, 180}, kCloud = {260, 60, 80, 80};  // of that picture
+
+TEST(FloodLevels, WallInWhatIsSharplyOutlinedWhateverItsColour) {
+  const cv::Mat lab = DiscAndCloud();
+  const cv::Mat ground = GroundAtFrame(cv::Mat::zeros(lab.size(), CV_32FC1));
+  const cv::Mat levels = FloodLevels(Walls(SharpGradient(lab), 3, {}), ground);
+  const float disc = levels.at<float>(100, 100);
+  EXPECT_GT(disc, 10 * MostIn(levels, kOutside));
+  EXPECT_LT(MostIn(levels, kCloud), 0.2F * disc);
+}
+
+// A grainy picture like it, the disc's outline all but lost over a ninth of its length: a flood
+// runs in.
+TEST(MergingLevels, KeepApartWhatIsSharplyOutlinedButForAWhile) {
+  cv::Mat lab = DiscAndCloud();
+  cv::Mat right = lab(cv::Rect(130, 86, 18, 28));
+  const cv::Mat even(right.size(), right.type(), cv::Scalar(60, 0, 0));
+  cv::addWeighted(right, 0.1, even, 0.9, 0, right);
+  cv::Mat grain(lab.size(), lab.type());
+  cv::RNG(1).fill(grain, cv::RNG::NORMAL, 0, 0.5);
+  const cv::Mat walls = Walls(SharpGradient(lab + grain), 5, {});
+  const cv::Mat ground = GroundAtFrame(cv::Mat::zeros(lab.size(), CV_32FC1));
+  const cv::Mat flooded = FloodLevels(walls, ground);
+  EXPECT_LT(flooded.at<float>(100, 90), MostIn(flooded, kOutside));
+  const cv::Mat merged = MergingLevels(walls, ground);
+  const float disc = merged.at<float>(100, 90);
+  EXPECT_GT(disc, 3 * MostIn(merged, kOutside));
+  EXPECT_GT(disc, 3 * MostIn(merged, kCloud));
+}
+
+TEST(Walls, AreNoneWhereNothingIsToBeLookedAt) {
   const cv::Mat lab = DiscAndCloud();
   cv::Mat ignore = cv::Mat::zeros(lab.size(), CV_8UC1);
   ignore(cv::Rect(50, 50, 100, 100)).setTo(255);
-  const cv::Mat levels =
-      FloodLevels(SharpGradient(lab), cv::Mat::zeros(lab.size(), CV_32FC1), ignore, 3);
-  EXPECT_EQ(levels.at<float>(100, 100), 0);
+  const cv::Mat sharp_gradient = SharpGradient(lab);
+  const cv::Rect disc(55, 55, 90, 90);
+  EXPECT_GT(MostIn(Walls(sharp_gradient, 3, {}), disc), 0);
+  EXPECT_EQ(MostIn(Walls(sharp_gradient, 3, ignore), disc), 0);
 }
 
 // A rod with two rings at its left end; `gap_px` parts it from the right end on.
@@ -147,6 +176,34 @@ TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
     EXPECT_FALSE(blade->cut_off);
     EXPECT_LT(blade->tip.x(), joint.x);
   }
+}
+
+// Blades that the frame cuts on the left, two short limbs on the right.
+TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
+  cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
+  const cv::Point joint(200, 200);
+  const auto along = [&](int sign, int way) { return joint + cv::Point(way, sign * way * 4 / 10); };
+  for (const int sign : {-1, 1}) {
+    cv::line(mask, joint, along(sign, -300), 255, 34);
+    const std::vector<cv::Point> stub{
+        along(sign, 150), joint + cv::Point(4, -18), joint + cv::Point(-4, 18)};
+    cv::fillConvexPoly(mask, stub, 255);
+  }
+  Candidate like;
+  like.outlined = true;
+  const auto sees_stubs = [&] {
+    cv::Mat light;
+    mask.convertTo(light, CV_32FC1, 100.0 / 255);
+    const Window window{cv::Rect({}, mask.size()), mask.size()};
+    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+    const Rung seen = SeenIn(mask, like, {}, {});
+    return std::any_of(seen.candidates.begin(), seen.candidates.end(), [&](const Candidate& c) {
+      return c.pair.first.tip.x() > joint.x;
+    });
+  };
+  EXPECT_TRUE(sees_stubs()) << "look like blades";
+  for (const int sign : {-1, 1}) cv::line(mask, along(sign, 180), along(sign, 320), 255, 8);
+  EXPECT_FALSE(sees_stubs()) << "the limbs go on";
 }
 
 TEST(FindScene, RefusesClosedScissorsByThatReason) {
