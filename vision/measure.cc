@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "vision/blade_frame.h"
@@ -225,7 +226,8 @@ void FillTheta(const Opening& opening,
                const std::optional<double>& given_rad,
                PhotoMeasurement* result) {
   result->theta_rad = given_rad.value_or(opening.theta_rad);
-  result->theta_sigma_rad = opening.sigma_rad;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  result->theta_sigma_rad = given_rad ? kUnknown : opening.sigma_rad;
   result->theta_source = given_rad ? "given" : "distal-ends";
   result->edges.theta_rad = result->theta_rad;
   result->edges.theta_sigma_rad = result->theta_sigma_rad;

@@ -40,9 +40,9 @@ struct PhotoMeasurement {
   int width = 0, height = 0;
   Eigen::Vector2d pivot_px;
   double pivot_sigma_px = std::numeric_limits<double>::quiet_NaN();
-  std::string pivot_source;  // "screw", "geometry", "hint"
-  Eigen::Vector2d axis_px;   // unit direction of +x in the image, at the pivot
-  double theta_rad = 0, theta_sigma_rad = 0;
+  std::string pivot_source;                   // "screw", "geometry", "hint"
+  Eigen::Vector2d axis_px;                    // unit direction of +x in the image, at the pivot
+  double theta_rad = 0, theta_sigma_rad = 0;  // NaN for a given one: nobody said
   std::string theta_source;                   // "distal-ends", "given"
   double mm_per_px = 0, mm_per_px_sigma = 0;  // along the axis, at the pivot
   std::string scale_source;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
@@ -170,6 +172,30 @@ TEST(Fit, FindsTheTruthOfARenderedPhotograph) {
   // Four sigma: one scene in ten thousand may be further off.
   EXPECT_LT((PointOf(photo["pivot_px"]) - truth.pivot_px).norm(), 4 * pivot_sigma_px + 0.1);
   EXPECT_NEAR(photo["theta_rad"].get<double>(), truth.theta_rad, 4 * theta_sigma_rad + 1e-3);
+}
+
+TEST(Fit, GivenThetaIsAsGoodAsAProtractorAndIsDoubtedWhereTheEndsSayOtherwise) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double truth_deg = PhotoFromAbove().truth.theta_rad / kDegree;
+  const auto given = [&](double theta_deg) {
+    const std::string theta = std::to_string(theta_deg);
+    return MustFit(folder, {"scissors.jpg", "--mm-per-px", MmPerPx(), "--theta-deg", theta});
+  };
+  const Json near = given(truth_deg + 0.3);
+  const Json& photo = near["photos"][0];
+  EXPECT_EQ(photo["theta_source"], "given");
+  EXPECT_NEAR(photo["theta_rad"].get<double>(), (truth_deg + 0.3) * kDegree, 1e-6);
+  EXPECT_NEAR(photo["theta_sigma_rad"].get<double>(), 0.5 * kDegree, 0.05 * kDegree);
+  const auto is_doubted = [](const Json& record) {
+    const Json& warnings = record["warnings"];
+    return std::find(warnings.begin(), warnings.end(), "theta_given_differs") != warnings.end();
+  };
+  EXPECT_FALSE(is_doubted(near));
+  const Json far = given(truth_deg + 15);
+  EXPECT_TRUE(is_doubted(far));
+  EXPECT_EQ(far["status"], "review");
 }
 
 TEST(Fit, EveryOrientationGivesTheDisplayedPicture) {
