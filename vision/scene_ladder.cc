@@ -29,6 +29,13 @@ bool Better(const Candidate& a, const Candidate& b) {
   return a_usable != b_usable ? a_usable : Merit(a) > Merit(b);
 }
 
+// How well a mask's contour follows the blades' edges: on a strong transition, and smoothly.
+double Fidelity(const Candidate& c) {
+  constexpr double kRough = 0.015;  // of the length; a contour that changes lines half way has it
+  const double roughness = std::max(c.pair.first.roughness, c.pair.second.roughness) / kRough;
+  return c.strength / (1 + roughness * roughness);
+}
+
 constexpr double kSurelyScissors = 0.8;  // quality
 
 // A pair that is small, or partly out of the picture, but shows in many masks: no shank does.
@@ -45,10 +52,10 @@ LadderResult Choose(const std::vector<Candidate>& candidates) {
     if (best == nullptr || Better(c, *best)) best = &c;
   }
   if (best == nullptr) return result;
-  const Candidate* strongest = best;
+  const Candidate* truest = best;
   for (const Candidate& c : candidates) {
     const bool as_good = c.pair.quality > 0.95 * best->pair.quality && SameBlades(c, *best);
-    if (as_good && c.strength > strongest->strength) strongest = &c;
+    if (as_good && Fidelity(c) > Fidelity(*truest)) truest = &c;
     const double apart =
         (c.at->FullFromSmall(c.pair.pivot) - best->at->FullFromSmall(best->pair.pivot)).norm();
     const bool elsewhere = apart > SizeOf(best->pair) * best->at->full_px_per_px();
@@ -57,7 +64,7 @@ LadderResult Choose(const std::vector<Candidate>& candidates) {
     if (best->pair.quality > kSurelyScissors && elsewhere && (seen_alike || IsOftenSeen(c)))
       result.several = true;
   }
-  result.best = *strongest;
+  result.best = *truest;
   return result;
 }
 
