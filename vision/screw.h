@@ -46,6 +46,13 @@ inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
   return screw.evidence < kFaintHead && !screw.slot;
 }
 
+// Whether so much of the rim looks otherwise than the rest that a reflection within the head may
+// have been followed there.
+[[nodiscard]] inline bool IsPartlySeen(const Screw& screw) {
+  constexpr double kLeastThird = 0.5;
+  return screw.third_support < kLeastThird;
+}
+
 struct ScrewSearch {
   Eigen::Vector2d guess_px;     // where geometry puts the pivot
   double radius_px = 0;         // how far from there the centre may lie; time grows as its square

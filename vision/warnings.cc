@@ -21,7 +21,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
     if (doubtful) warnings.emplace_back(doubt);
   };
   warn_if(pivot.source == "geometry", "pivot_not_seen");
-  warn_if(pivot.screw && IsFaint(*pivot.screw), "pivot_faint");
+  warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
   warn_if(scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted,
           "blades_asymmetric");
   warn_if(blades.ends_contradict, "ends_unlike");

@@ -26,6 +26,7 @@ TEST(WarningsOf, DoubtsAPivotThatIsNotSeenOrHardlySeen) {
   screw.center_px = measured.truth.screw_px;
   screw.covariance_px2.setIdentity();
   screw.evidence = kFaintHead + 1;
+  screw.third_support = 0.9;
   measured.pivot.screw = screw;
   EXPECT_FALSE(Warns(measured, "pivot_faint"));
   measured.pivot.screw->evidence = kFaintHead - 1;
@@ -33,6 +34,8 @@ TEST(WarningsOf, DoubtsAPivotThatIsNotSeenOrHardlySeen) {
   EXPECT_FALSE(Warns(measured, "pivot_not_seen"));
   measured.pivot.screw->slot = ScrewSlot{screw.center_px, screw.covariance_px2, true};
   EXPECT_FALSE(Warns(measured, "pivot_faint"));
+  measured.pivot.screw->third_support = 0.4;
+  EXPECT_TRUE(Warns(measured, "pivot_faint"));
   measured.pivot.screw.reset();
   measured.pivot.source = "geometry";
   EXPECT_TRUE(Warns(measured, "pivot_not_seen"));
