@@ -49,8 +49,8 @@ inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
 // Whether so much of the rim looks otherwise than the rest that a reflection within the head may
 // have been followed there.
 [[nodiscard]] inline bool IsPartlySeen(const Screw& screw) {
-  constexpr double kLeastThird = 0.5;
-  return screw.third_support < kLeastThird;
+  constexpr double kLeastThird = 0.45;
+  return screw.third_support < kLeastThird && !screw.slot;
 }
 
 struct ScrewSearch {

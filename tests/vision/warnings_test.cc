@@ -35,6 +35,9 @@ TEST(WarningsOf, DoubtsAPivotThatIsNotSeenOrHardlySeen) {
   measured.pivot.screw->slot = ScrewSlot{screw.center_px, screw.covariance_px2, true};
   EXPECT_FALSE(Warns(measured, "pivot_faint"));
   measured.pivot.screw->third_support = 0.4;
+  EXPECT_FALSE(Warns(measured, "pivot_faint")) << "the slot tells where it is";
+  measured.pivot.screw->slot.reset();
+  measured.pivot.screw->evidence = kFaintHead + 1;
   EXPECT_TRUE(Warns(measured, "pivot_faint"));
   measured.pivot.screw.reset();
   measured.pivot.source = "geometry";
