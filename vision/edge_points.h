@@ -39,7 +39,8 @@ struct EdgePoints {
   LocatedPoint upper_end, lower_end;
   double theta_rad =
       std::numeric_limits<double>::quiet_NaN();  // opening angle; from the distal ends, or given
-  double theta_sigma_rad = std::numeric_limits<double>::quiet_NaN();  // NaN: half a degree
+  double theta_sigma_rad =
+      std::numeric_limits<double>::quiet_NaN();  // NaN: not known; taken for half a degree
   bool theta_given = false;  // the user said it (--theta-deg): then it is an observation of its own
   double scale_relative_sigma = 0;   // standard uncertainty of mm per pixel, relative
   double correlation_length_mm = 0;  // neighbouring points closer than this are not independent

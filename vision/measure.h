@@ -42,7 +42,7 @@ struct PhotoMeasurement {
   double pivot_sigma_px = std::numeric_limits<double>::quiet_NaN();
   std::string pivot_source;                   // "screw", "geometry", "hint"
   Eigen::Vector2d axis_px;                    // unit direction of +x in the image, at the pivot
-  double theta_rad = 0, theta_sigma_rad = 0;  // NaN for a given one: nobody said
+  double theta_rad = 0, theta_sigma_rad = 0;  // the sigma of a given one is NaN: nobody said
   std::string theta_source;                   // "distal-ends", "given"
   double mm_per_px = 0, mm_per_px_sigma = 0;  // along the axis, at the pivot
   std::string scale_source;

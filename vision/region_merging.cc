@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <queue>
@@ -12,41 +11,22 @@
 #include <utility>
 #include <vector>
 
+#include "vision/pixel_neighbours.h"
+#include "vision/sharp_gradient.h"
+
 namespace bladecurve {
 namespace {
 
 std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-// Calls visit(q) for the neighbours of pixel p.
-template <typename Visit>
-void ForNeighbours(const cv::Size& size, int p, const Visit& visit) {
-  const int column = p % size.width;
-  if (column > 0) visit(p - 1);
-  if (column + 1 < size.width) visit(p + 1);
-  if (p >= size.width) visit(p - size.width);
-  if (p + size.width < size.area()) visit(p + size.width);
-}
-
-// The heights of a relief, sorted into bins, twelve to the octave.
-std::vector<uchar> BinsOf(const cv::Mat& relief) {
-  constexpr float kLowest = 0.25F, kPerOctave = 12;
-  std::vector<uchar> bins;
-  bins.reserve(relief.total());
-  for (auto height = relief.begin<float>(); height != relief.end<float>(); ++height) {
-    const float bin = kPerOctave * std::log2(std::max(*height, kLowest) / kLowest);
-    bins.push_back(cv::saturate_cast<uchar>(bin));
-  }
-  return bins;
-}
-
-// The basins of a relief: for each pixel the number, from 0, of the minimum that it runs down to.
+// The basins between walls: for each pixel the number, from 0, of the minimum that it runs down to.
 class Basins {
  public:
-  explicit Basins(const cv::Mat& relief)
-      : size_(relief.size()), bins_(BinsOf(relief)), basin_of_(relief.total(), kDry) {
-    std::array<std::vector<int>, kBins> pixels;
-    for (int p = 0; p < size_.area(); ++p) pixels[bins_[Index(p)]].push_back(p);
-    for (int bin = 0; bin < kBins; ++bin) {
+  explicit Basins(const cv::Mat& walls) : bins_(WallBins(walls)), basin_of_(walls.total(), kDry) {
+    std::array<std::vector<int>, kWallBins> pixels;
+    const int count = static_cast<int>(walls.total());
+    for (int p = 0; p < count; ++p) pixels[bins_.ptr()[p]].push_back(p);
+    for (int bin = 0; bin < kWallBins; ++bin) {
       Spread(bin);
       for (const int p : pixels[Index(bin)]) {
         if (basin_of_[Index(p)] != kDry) continue;
@@ -61,31 +41,31 @@ class Basins {
   [[nodiscard]] int Of(int pixel) const { return basin_of_[Index(pixel)]; }
 
  private:
-  static constexpr int kBins = 256, kDry = -1;
+  static constexpr int kDry = -1;
 
   // Lets the water in the basins rise to a bin.
   void Spread(int bin) {
     std::vector<int>& shore = shores_[Index(bin)];  // grows meanwhile
     for (std::size_t k = 0; k < shore.size(); ++k) {
       const int p = shore[k];
-      ForNeighbours(size_, p, [&](int q) {
+      ForNeighbours(bins_.size(), p, [&](int q) {
         if (basin_of_[Index(q)] != kDry) return;
         basin_of_[Index(q)] = basin_of_[Index(p)];
-        shores_[Index(std::max(bin, static_cast<int>(bins_[Index(q)])))].push_back(q);
+        shores_[Index(std::max(bin, static_cast<int>(bins_.ptr()[q])))].push_back(q);
       });
     }
     shore.clear();
   }
 
-  cv::Size size_;
-  std::vector<uchar> bins_;
+  cv::Mat bins_;
   std::vector<int> basin_of_;
-  std::array<std::vector<int>, kBins> shores_;  // pixels whose neighbours are still to be reached
+  std::array<std::vector<int>, kWallBins>
+      shores_;  // pixels whose neighbours are still to be reached
   int count_ = 0;
 };
 
 // What two regions have in common: as many pairs of neighbouring pixels, and the sum of the higher
-// relief of each pair.
+// wall of each pair.
 struct Border {
   double sum = 0;
   int pairs = 0;
@@ -121,12 +101,9 @@ class RegionMerging {
       waiting_.pop();
       if (!IsStill(next)) continue;
       height = std::max(height, next.height);
-      const bool first_larger = borders_[Index(next.a)].size() > borders_[Index(next.b)].size();
-      if (first_larger) {
-        Merge(next.b, next.a, height);
-      } else {
-        Merge(next.a, next.b, height);
-      }
+      auto [gone, kept] = std::pair(next.a, next.b);
+      if (borders_[Index(gone)].size() > borders_[Index(kept)].size()) std::swap(gone, kept);
+      Merge(gone, kept, height);
     }
   }
 

@@ -118,7 +118,7 @@ LadderResult ClimbLadder(const Photo& photo,
     log->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
-  const ColourPictures outlines = SmallColour(view, kOutlineSide);
+  const Outlines outlines = OutlinesIn(view);
   result = Consider(FloodRung(view, outlines), "rung-flood", &all, log);
   log->Ran("scene-flood", "no threshold separates the blades");
   if (ShowsWholeBlades(result)) {

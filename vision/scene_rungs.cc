@@ -113,8 +113,6 @@ void AddLevels(const cv::Mat& levels,
   rung->distance = levels;
 }
 
-constexpr int kClosedPx[] = {3, 5};  // narrow gaps between blades, and gaps in faint outlines
-
 }  // namespace
 
 Rung GreyRung(const SceneView& view) {
@@ -141,13 +139,22 @@ Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
   return ThresholdAll(distance, colour.ignore, like, view.hints);
 }
 
-Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
-  const cv::Mat ground = GroundAtFrame(LabDistance(view, colour));
+Outlines OutlinesIn(const SceneView& view) {
+  Outlines outlines{SmallColour(view, kOutlineSide), {}, {}};
+  const ColourPictures& colour = outlines.colour;
+  outlines.ground = GroundAtFrame(LabDistance(view, colour));
   const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
+  for (const int closed_px : {3, 5})
+    outlines.closed.push_back({closed_px, Walls(sharp_gradient, closed_px, colour.ignore)});
+  return outlines;
+}
+
+Rung FloodRung(const SceneView& view, const Outlines& outlines) {
+  const ColourPictures& colour = outlines.colour;
   const Candidate like{{}, colour.lab, {}, "flood"};
   Rung rung;
-  for (const int closed_px : kClosedPx) {
-    cv::Mat levels = FloodLevels(Walls(sharp_gradient, closed_px, colour.ignore), ground);
+  for (const auto& [closed_px, walls] : outlines.closed) {
+    cv::Mat levels = FloodLevels(walls, outlines.ground);
     if (!colour.ignore.empty()) levels.setTo(0, colour.ignore);
     // Walls are thicker than what they enclose by half of what was closed, so that much may go.
     AddLevels(levels, closed_px, like, view, colour.ignore, &rung);
@@ -155,18 +162,16 @@ Rung FloodRung(const SceneView& view, const ColourPictures& colour) {
   return rung;
 }
 
-Rung RegionRung(const SceneView& view, const ColourPictures& colour) {
+Rung RegionRung(const SceneView& view, const Outlines& outlines) {
   constexpr int kSpeckPx = 5;
-  cv::Mat ground = GroundAtFrame(LabDistance(view, colour));
+  const ColourPictures& colour = outlines.colour;
+  cv::Mat ground = outlines.ground.clone();
   if (!colour.ignore.empty()) ground.setTo(255, colour.ignore);
-  const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
   Candidate like{{}, colour.lab, {}, "regions"};
   like.outlined = true;
   Rung rung;
-  for (const int closed_px : kClosedPx) {
-    const cv::Mat levels = MergingLevels(Walls(sharp_gradient, closed_px, colour.ignore), ground);
-    AddLevels(levels, kSpeckPx, like, view, colour.ignore, &rung);
-  }
+  for (const auto& [closed_px, walls] : outlines.closed)
+    AddLevels(MergingLevels(walls, ground), kSpeckPx, like, view, colour.ignore, &rung);
   return rung;
 }
 

@@ -21,10 +21,24 @@ inline constexpr int kOutlineSide = 960;
 [[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
 // By what a shadow does not do to the background.
 [[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
+
+// The sharp outlines of a picture, which two rungs go by.
+struct Outlines {
+  ColourPictures colour;
+  cv::Mat ground;  // as GroundAtFrame gives it
+  // Wider gaps closed keep together faint outlines, narrower ones blades with little between them.
+  struct ClosedWalls {
+    int closed_px = 0;
+    cv::Mat walls;
+  };
+  std::vector<ClosedWalls> closed;
+};
+[[nodiscard]] Outlines OutlinesIn(const SceneView& view);
+
 // By sharp outlines without a gap, whatever the colours.
-[[nodiscard]] Rung FloodRung(const SceneView& view, const ColourPictures& colour);
+[[nodiscard]] Rung FloodRung(const SceneView& view, const Outlines& outlines);
 // By outlines that are sharp on the average of their length. Soft shadows have none; but a bevel's
 // or a hard shadow's line is one, too.
-[[nodiscard]] Rung RegionRung(const SceneView& view, const ColourPictures& colour);
+[[nodiscard]] Rung RegionRung(const SceneView& view, const Outlines& outlines);
 
 }  // namespace bladecurve

@@ -11,6 +11,13 @@
 namespace bladecurve {
 namespace {
 
+constexpr float kBinsPerOctave = 12, kLowestWall = 0.25F;  // of WallBins
+
+uchar BinOfWall(float wall) {
+  const float bin = kBinsPerOctave * std::log2(std::max(wall, kLowestWall) / kLowestWall);
+  return cv::saturate_cast<uchar>(std::min(std::lround(bin), static_cast<long>(kWallBins) - 1));
+}
+
 // Length of the gradient over all three channels at a smoothing of `sigma` px, Lab units per px.
 cv::Mat GradientLength(const cv::Mat& lab, double sigma) {
   cv::Mat smooth;
@@ -58,6 +65,20 @@ cv::Mat Walls(const cv::Mat& sharp_gradient, int closed_px, const cv::Mat& ignor
   cv::Mat walls = InUsualUnits(closed);
   if (!ignore.empty()) walls.setTo(0, ignore);
   return walls;
+}
+
+cv::Mat WallBins(const cv::Mat& walls) {
+  cv::Mat bins(walls.size(), CV_8UC1);
+  for (int row = 0; row < walls.rows; ++row) {
+    const float* wall = walls.ptr<float>(row);
+    uchar* bin = bins.ptr(row);
+    for (int col = 0; col < walls.cols; ++col) bin[col] = BinOfWall(wall[col]);
+  }
+  return bins;
+}
+
+float WallOfBin(int bin) {
+  return kLowestWall * std::exp2(static_cast<float>(bin) / kBinsPerOctave);
 }
 
 cv::Mat GroundAtFrame(const cv::Mat& distance) {

@@ -14,6 +14,11 @@ namespace bladecurve {
 // to `closed_px`, odd, closed; 0 where `ignore` (CV_8UC1, may be empty) is not.
 [[nodiscard]] cv::Mat Walls(const cv::Mat& sharp_gradient, int closed_px, const cv::Mat& ignore);
 
+// Walls sorted into bins, CV_8UC1, twelve to the octave from a quarter of the median up.
+inline constexpr int kWallBins = 128;
+[[nodiscard]] cv::Mat WallBins(const cv::Mat& walls);
+[[nodiscard]] float WallOfBin(int bin);
+
 // Non-zero, CV_8UC1, at the pixels of the frame that look like the background by their `distance`
 // from it, CV_32FC1: metal that is cut off does not.
 [[nodiscard]] cv::Mat GroundAtFrame(const cv::Mat& distance);
