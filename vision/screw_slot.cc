@@ -55,6 +55,12 @@ class HeadFrame {
   Vector2d center_px_, along_px_;
 };
 
+// What of a slot is dark.
+struct DarkBar {
+  double centre = 0;  // of its darkness
+  double width = 0;   // of a bar as dark as its darkest with all its darkness
+};
+
 // Light across the slot, averaged along part of it; one value each kStep.
 class CrossProfile {
  public:
@@ -77,9 +83,9 @@ class CrossProfile {
     return beside > 0 ? 1 - inside.Value() / beside : 0;
   }
 
-  // Where the darkness about `across` has its centre of mass, all that is clearly darker
-  // than the head: floor and walls, of which one may be lit.
-  [[nodiscard]] double DarkCentre(double across) const {
+  // All about `across` that is clearly darker than the head: floor and walls, as far as they are
+  // not lit.
+  [[nodiscard]] DarkBar BarAbout(double across) const {
     constexpr double kWidest = 2.2 * kHalfWidth;
     double darkest = std::numeric_limits<double>::infinity();
     ForEachWithin(kWidest, across, [&](int i) { darkest = std::min(darkest, At(i)); });
@@ -91,7 +97,8 @@ class CrossProfile {
       darkness += dark;
       moment += dark * Across(i);
     });
-    return darkness > 0 ? moment / darkness : across;
+    if (!(darkness > 0)) return {across, 0};
+    return {moment / darkness, kStep * darkness / (clearly - darkest)};
   }
 
  private:
@@ -184,7 +191,7 @@ CentreLine LineThrough(const std::vector<CrossProfile>& sections, double across)
   std::vector<double> centers;
   for (int k = 0; k < kSections; ++k) {
     const double along = SectionMiddle(k);
-    centers.push_back(sections[static_cast<std::size_t>(k)].DarkCentre(across));
+    centers.push_back(sections[static_cast<std::size_t>(k)].BarAbout(across).centre);
     sum += centers.back();
     moment += along * centers.back();
     squares += along * along;
@@ -197,6 +204,14 @@ CentreLine LineThrough(const std::vector<CrossProfile>& sections, double across)
   }
   line.scatter = std::sqrt(line.scatter);
   return line;
+}
+
+// How far what is dark may lie off the middle of the slot: a lit wall looks like the head.
+double UnseenHalf(const HeadFrame& head, double across) {
+  constexpr double kWide = 0.25;
+  constexpr int kPlaces = 4 * kSections;
+  const CrossProfile whole(head, 0, kReach, kPlaces);
+  return 0.5 * std::max(0.0, kWide - whole.BarAbout(across).width);
 }
 
 // How far along the slot its end lies, towards +1 or -1: where half the darkness is gone.
@@ -242,8 +257,10 @@ std::optional<ScrewSlot> FindSlot(const cv::Mat& grey,
                               last = EndOf(head, slot.across, 1);
   const double middle = first && last ? 0.5 * (*first + *last) : 0;
   const bool ends_seen = first && last && std::abs(middle) < kMostOff;
-  const double along_sigma = ends_seen ? kEndsOffCentre : 1;
-  const double across_sigma = std::hypot(kSlotOffCentre, line.scatter / std::sqrt(kSections));
+  // Ends about another centre than the rim's: one of both follows something else.
+  const double along_sigma = ends_seen ? std::max(kEndsOffCentre, std::abs(middle)) : 1;
+  const double across_sigma = std::hypot(
+      kSlotOffCentre, UnseenHalf(head, slot.across), line.scatter / std::sqrt(kSections));
   const Vector2d along(std::cos(slot.angle_rad), std::sin(slot.angle_rad));
   return ScrewSlot{head.Place(ends_seen ? middle : 0, slot.across),
                    AlongAcross(along, radius_px * along_sigma, radius_px * across_sigma),

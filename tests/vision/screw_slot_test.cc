@@ -58,11 +58,37 @@ TEST(FindSlot, SaysWhereTheCentreIs) {
 TEST(FindSlot, KnowsTheCentreBetterAcrossTheSlotThanAlongIt) {
   HeadSpec head = RandomHead(7);
   head.slot = -0.2;
-  head.slot_width = 0.1;
+  head.slot_width = 0.14;
   head.slot_angle_rad = 0;
   const std::optional<ScrewSlot> slot = FindAside(head);
   ASSERT_TRUE(slot);
   EXPECT_LT(2 * slot->covariance_px2(1, 1), slot->covariance_px2(0, 0));
+}
+
+// One wall in the dark is all that is seen of many slots; it lies aside of their middle.
+TEST(FindSlot, DoubtsTheMiddleOfWhatIsNarrowerThanSlotsAre) {
+  HeadSpec head = RandomHead(7);
+  head.slot = -0.2;
+  head.slot_angle_rad = 0;
+  const auto across_sigma = [&head](double half_width) {
+    head.slot_width = half_width;
+    const std::optional<ScrewSlot> slot = FindAside(head);
+    return slot ? std::sqrt(slot->covariance_px2(1, 1)) / head.semi_major_px : 0;
+  };
+  EXPECT_GT(across_sigma(0.05), 0.06);
+  EXPECT_LT(across_sigma(0.14), 0.04);
+}
+
+TEST(FindSlot, DoubtsEndsAboutAnotherCentreThanTheRims) {
+  HeadSpec head = RandomHead(7);
+  head.slot = -0.2;
+  head.slot_width = 0.1;
+  head.slot_angle_rad = 0;
+  const double off = 0.15 * head.semi_major_px;
+  const std::optional<ScrewSlot> slot = FindSlot(
+      RenderHead(head), SrgbToneCurve(), head.center_px + Vector2d(off, 0), head.semi_major_px);
+  ASSERT_TRUE(slot);
+  EXPECT_GT(std::sqrt(slot->covariance_px2(0, 0)), 0.7 * off);
 }
 
 TEST(FindSlot, TakesNoStreakOfBrushedMetalForOne) {
