@@ -40,8 +40,7 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
 }
 
 void RefuseJaws(const Pivot& pivot) {
-  constexpr double kLeastOverlap = 0.04;  // 0.055 and more for all scissors, 0.03 and less for jaws
-  if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
+  if (!MeetAtPivot(pivot)) return;
   throw Refused(
       Reason::kNotScissors,
       "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
@@ -68,6 +67,11 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseOutOfPlane(pivot);
   RefuseJaws(pivot);
   RefuseUnknownPivot(pivot, blades);
+}
+
+bool MeetAtPivot(const Pivot& pivot) {
+  constexpr double kLeastOverlap = 0.04;  // 0.055 and more for all scissors, 0.03 and less for jaws
+  return pivot.overlap + pivot.overlap_sigma < kLeastOverlap;
 }
 
 bool IsClear(const LocatedEdge& edge) {

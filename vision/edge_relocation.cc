@@ -295,7 +295,11 @@ bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& bl
 }
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
+  const Blades before = *blades;
   Relocate(view, *pivot, blades);
+  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
+  if (!MeetAtPivot(*pivot)) return;
+  *blades = before;
   CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
 }
 

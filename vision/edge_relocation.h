@@ -21,7 +21,8 @@ namespace bladecurve {
 // taken if it is less doubtful there. Where neither stands out, the inner one is taken from the
 // other one's mirror image, if that lies on a faint step along its whole. Where nobody knows the
 // tilt of the view, otherwise only edges far unlike are looked for, inside a shadow or on a faint
-// step; whatever is moved is ambiguous then.
+// step; whatever is moved is ambiguous then. Nothing is taken from where edges that pass by the
+// pivot would meet there instead.
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve
