@@ -24,8 +24,8 @@ double Credence(const Screw& screw) {
   return screw.evidence - 0.5 * sigmas * sigmas;
 }
 
-// Heads of screws and rivets are a quarter to nine tenths of the shank wide; engraved marks are
-// smaller.
+// Heads of screws and rivets are a quarter to four fifths of the shank wide; engraved marks are
+// smaller, and what is as wide as the shank is mostly its own outline.
 ScrewSearch SearchForHead(const ScaleResult& scale,
                           const Scene& scene,
                           const Vector2d& guess_px,
@@ -33,7 +33,7 @@ ScrewSearch SearchForHead(const ScaleResult& scale,
   ScrewSearch search;
   if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
   search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
-  search.max_semi_axis_px = std::max(4.0, 0.45 * scene.shank_width_px);
+  search.max_semi_axis_px = std::max(4.0, 0.4 * scene.shank_width_px);
   search.guess_px = guess_px;
   search.radius_px = radius_px;
   return search;
