@@ -86,6 +86,29 @@ ScrewSearch SearchHalfLit(const HeadSearch& known) {
   return search;
 }
 
+// Whether the rim runs through one of the crotches, as outlines about them do and hardly any head.
+bool RunsThroughCrotch(const Screw& screw, const Scene& scene) {
+  constexpr double kNear = 0.2;  // of the radius
+  const auto is_near = [&](const Vector2d& crotch_px) {
+    const double radii = (screw.center_px - crotch_px).norm() / screw.semi_major_px;
+    return std::abs(radii - 1) < kNear;
+  };
+  return is_near(scene.shank_crotch_px) || is_near(scene.crotch_px);
+}
+
+std::optional<Screw> Find(const cv::Mat& grey,
+                          const ScaleResult& scale,
+                          const Scene& scene,
+                          const ScrewSearch& search) {
+  const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
+  if (!screw || screw->evidence > kBeyondDoubt || !RunsThroughCrotch(*screw, scene)) return screw;
+  return std::nullopt;
+}
+
+std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search) {
+  return Find(known.grey, known.scale, known.scene, search);
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const HeadSearch& known) {
@@ -95,7 +118,7 @@ std::optional<Screw> LookForScrew(const HeadSearch& known) {
        {SearchForHead(known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
         SearchOverlap(known.scale, scene, 0.25)}) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
-    const std::optional<Screw> screw = known.Find(search);
+    const std::optional<Screw> screw = FindHere(known, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
   return clearest;
@@ -122,7 +145,7 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
     ScrewSearch piece = search;
     piece.radius_px = half_px;
     if (i < kAround) piece.guess_px += apart_px * Vector2d(std::cos(angle), std::sin(angle));
-    return known.Find(piece);
+    return FindHere(known, piece);
   });
 }
 
@@ -131,7 +154,7 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
 // so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   constexpr double kUnmistakable = 25, kFaintSlotted = 5;
-  const auto forward = known.Find(SearchOverlap(known.scale, known.scene, 0.75));
+  const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
   if (forward && (forward->evidence > kBeyondDoubt || MirrorAbout(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
     const bool slotted = screw.slot && screw.slot->ends_seen;
@@ -146,9 +169,9 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
   }
   if (clearest) return clearest;
-  const auto wide = known.Find(SearchWideHead(known.scale, known.scene));
+  const auto wide = FindHere(known, SearchWideHead(known.scale, known.scene));
   if (wide && (wide->evidence > kUnmistakable || MirrorAbout(*wide, known))) return wide;
-  const auto half = known.Find(SearchHalfLit(known));
+  const auto half = FindHere(known, SearchHalfLit(known));
   return half && MirrorAbout(*half, known) ? half : std::nullopt;
 }
 
@@ -157,7 +180,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
 Screw LessFaint(const HeadSearch& known, const Screw& seen) {
   if (!IsFaint(seen) || !AreFarUnlike(AsymmetryAbout(seen, known))) return seen;
   const std::optional<Screw> other =
-      known.Find(SearchAllAbout(known.scale, known.scene, kBeyondDoubt));
+      FindHere(known, SearchAllAbout(known.scale, known.scene, kBeyondDoubt));
   return other && MirrorAbout(*other, known) ? *other : seen;
 }
 
@@ -166,7 +189,7 @@ Screw LessFaint(const HeadSearch& known, const Screw& seen) {
 std::optional<Screw> LookAtJoint(const cv::Mat& grey,
                                  const ScaleResult& scale,
                                  const Scene& scene) {
-  return FindScrew(grey, scale.tone, SearchOverlap(scale, scene, 0.5));
+  return Find(grey, scale, scene, SearchOverlap(scale, scene, 0.5));
 }
 
 std::optional<Screw> FindHead(const HeadSearch& search) {

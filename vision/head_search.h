@@ -27,10 +27,6 @@ struct HeadSearch {
   const EdgePair& edges;
   PlacePx by_geometry;            // where the blades alone put the pivot
   std::optional<Screw> at_joint;  // what LookAtJoint found
-
-  [[nodiscard]] std::optional<Screw> Find(const ScrewSearch& search) const {
-    return FindScrew(grey, scale.tone, search);
-  }
 };
 
 // The head of the screw or rivet. How obliquely it is seen the markers say, where there are any.

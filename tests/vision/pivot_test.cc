@@ -76,6 +76,25 @@ TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
   EXPECT_EQ(found().source, "geometry");
 }
 
+TEST(LookAtJoint, TakesNoFaintRoundThroughACrotchForAHead) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.screw_radius_mm = 1.65;
+  spec.sensor.noise_grey = 1;
+  const Measured measured{spec};
+  const auto look = [&](double crotch_radii) {  // before the head, and as much further behind it
+    const Vector2d radius_px =
+        spec.scissors.screw_radius_mm / measured.truth.mm_per_px * measured.truth.axis_px;
+    Scene scene = measured.scene;
+    scene.shank_crotch_px = measured.truth.screw_px - crotch_radii * radius_px;
+    scene.crotch_px = measured.truth.screw_px + (crotch_radii + 0.5) * radius_px;
+    return LookAtJoint(measured.photo.grey(), measured.scale, scene);
+  };
+  const std::optional<Screw> clear_of_crotches = look(2);
+  ASSERT_TRUE(clear_of_crotches);
+  EXPECT_LT(clear_of_crotches->evidence, kFaintHead);
+  EXPECT_FALSE(look(1));
+}
+
 // A rim seen where none is, aside of the line about which the blades mirror each other.
 Screw HeadAside(const Measured& measured, double evidence) {
   constexpr double kAsidePx = 20, kRadiusPx = 10;
