@@ -100,16 +100,19 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
                     "--pivot X,Y");
 }
 
-void RefuseUnconfirmedOutline(const Scene& scene, const Pivot& pivot) {
+void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   constexpr double kMost = 0.07;  // of the length; blades photographed at a slant differ by 0.05
   const bool seen = pivot.source != "geometry";
-  if (!scene.outlined || (seen && std::abs(pivot.asymmetry) < kMost)) return;
+  const bool mirrored = std::abs(pivot.asymmetry) < kMost;
+  if (!scene.IsDoubtful() || (seen && (mirrored || !scene.outlined))) return;
   throw Refused(
       Reason::kLowContrast,
-      "edges: shadows or a ground as bright as the blades leave nothing but lines to tell "
-      "them by, and " +
-          std::string(seen ? "these do not mirror each other about the pivot"
-                           : "no screw is seen about which these mirror each other") +
+      "edges: shadows or a ground as bright as the blades leave " +
+          std::string(scene.outlined ? "nothing but lines to tell them by"
+                                     : "it in doubt what is blade") +
+          ", and " +
+          (seen ? "these do not mirror each other about the pivot"
+                : "no screw is seen that would confirm where the blades are") +
           "; use another ground or softer light, or say where the screw is: --pivot X,Y");
 }
 

@@ -30,9 +30,10 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 // seen, are no mirror images by far: one of them is something else's border.
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 
-// Throws Refused{kLowContrast} for blades that were told from their ground by sharp lines alone, if
-// no pivot that is seen, or given, confirms that these mirror each other.
-void RefuseUnconfirmedOutline(const Scene& scene, const Pivot& pivot);
+// Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms it:
+// where blades were told from their ground by sharp lines alone, the edges mirror each other about
+// it.
+void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
 // doubt (far unlike: that one of them, or the pivot, is wrong), or that it is worth a look whether

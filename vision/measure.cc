@@ -252,7 +252,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   Reconcile(view, &pivot, &parts.blades, &log);
   DropFalseHead(scale, scene, parts.blades, &pivot, &log);
   RefuseUnlikeEdges(pivot, scale);
-  RefuseUnconfirmedOutline(scene, pivot);
+  RefuseUnconfirmedScene(scene, pivot);
   CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);

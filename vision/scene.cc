@@ -164,7 +164,7 @@ Scene FindScene(const Photo& photo,
     scene.pivot_px = *hints.pivot_px;
     scene.pivot_sigma_px = 1;
   }
-  if (scene.quality < 0.75 || scene.outlined) scene.warnings.push_back("scene_doubtful");
+  if (scene.IsDoubtful()) scene.warnings.push_back("scene_doubtful");
   log->Ran("trace", "edges followed on the small picture");
   if (log->wants_pictures()) log->Picture("scene", DrawScene(ladder.best, scene));
   return scene;

@@ -36,6 +36,9 @@ struct Scene {
   std::string method;         // the rung of the ladder that gave it
   bool outlined = false;  // by sharp lines alone, which may be those of a bevel or a hard shadow
   std::vector<std::string> warnings;
+
+  // Whether another silhouette may be as likely.
+  [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined; }
 };
 
 // Hints in stored pixels.

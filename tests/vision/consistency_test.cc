@@ -60,15 +60,20 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
 }
 
-TEST(RefuseUnconfirmedOutline, TakesLinesForEdgesIfTheyMirrorEachOtherAboutAPivotThatIsSeen) {
-  Scene plain, outlined;
+TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMirrorEachOther) {
+  Scene plain, doubtful, outlined;
+  plain.quality = 0.9;
+  doubtful.quality = 0.5;
+  outlined.quality = 0.9;
   outlined.outlined = true;
   Pivot inferred = PivotSeen(0);
   inferred.source = "geometry";
-  EXPECT_NO_THROW(RefuseUnconfirmedOutline(outlined, PivotSeen(0.05)));
-  EXPECT_THROW(RefuseUnconfirmedOutline(outlined, PivotSeen(-0.1)), Refused);
-  EXPECT_THROW(RefuseUnconfirmedOutline(outlined, inferred), Refused);
-  EXPECT_NO_THROW(RefuseUnconfirmedOutline(plain, inferred));
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, inferred));
+  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, inferred), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, PivotSeen(-0.1)));
+  EXPECT_THROW(RefuseUnconfirmedScene(outlined, inferred), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(-0.1)), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(0.05)));
 }
 
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
