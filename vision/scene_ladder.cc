@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <opencv2/imgproc.hpp>
 
+#include "vision/nearest_pixel.h"
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_rungs.h"
@@ -45,6 +47,43 @@ bool IsOftenSeen(const Candidate& c) {
   return c.pair.quality > kLikely && c.agreeing >= kMasks;
 }
 
+double FullSize(const Candidate& c) { return SizeOf(c.pair) * c.at->full_px_per_px(); }
+
+bool IsShown(const cv::Mat& mask, const Eigen::Vector2d& place) {
+  const cv::Point pixel = NearestPixel(place);
+  return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
+}
+
+// Whether the mask of `c` shows it as another thing than the one that `best` is part of.
+bool StandsApart(const Candidate& c, const Candidate& best) {
+  cv::Mat others = c.mask.clone();
+  cv::floodFill(others, NearestPixel(c.pair.first.tip), 0);
+  bool shown = false;
+  for (const Eigen::Vector2d& part : {best.pair.pivot, best.pair.first.tip, best.pair.second.tip}) {
+    const Eigen::Vector2d place = c.at->SmallFromFull(best.at->FullFromSmall(part));
+    if (IsShown(c.mask, place) && !IsShown(others, place)) return false;
+    shown = shown || IsShown(others, place);
+  }
+  return shown;
+}
+
+// Whether `c` shows a second pair of scissors beside the best: as good a one elsewhere, or a
+// poorer one that is a thing of its own, and no texture.
+bool IsSecondPair(const Candidate& c, const Candidate& best) {
+  constexpr double kLikely = 0.3, kBeyondDoubt = 0.85;  // quality
+  constexpr double kSmallest = 0.4, kFaintest = 0.2;    // of the best
+  const double apart_px =
+      (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
+  if (apart_px <= FullSize(best)) return false;
+  const bool seen_alike =
+      c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best.method;
+  if (best.pair.quality > kSurelyScissors && (seen_alike || IsOftenSeen(c))) return true;
+  const bool comparable =
+      FullSize(c) > kSmallest * FullSize(best) && c.strength > kFaintest * best.strength;
+  const bool likely = c.pair.quality > (c.agreeing >= 2 ? kLikely : kBeyondDoubt);
+  return comparable && likely && StandsApart(c, best);
+}
+
 LadderResult Choose(const std::vector<Candidate>& candidates) {
   LadderResult result;
   const Candidate* best = nullptr;
@@ -56,13 +95,7 @@ LadderResult Choose(const std::vector<Candidate>& candidates) {
   for (const Candidate& c : candidates) {
     const bool as_good = c.pair.quality > 0.95 * best->pair.quality && SameBlades(c, *best);
     if (as_good && Fidelity(c) > Fidelity(*truest)) truest = &c;
-    const double apart =
-        (c.at->FullFromSmall(c.pair.pivot) - best->at->FullFromSmall(best->pair.pivot)).norm();
-    const bool elsewhere = apart > SizeOf(best->pair) * best->at->full_px_per_px();
-    const bool seen_alike =
-        c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best->method;
-    if (best->pair.quality > kSurelyScissors && elsewhere && (seen_alike || IsOftenSeen(c)))
-      result.several = true;
+    result.several = result.several || IsSecondPair(c, *best);
   }
   result.best = *truest;
   return result;
