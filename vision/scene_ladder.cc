@@ -11,6 +11,7 @@
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_rungs.h"
+#include "vision/silhouette.h"
 
 namespace bladecurve {
 namespace {
@@ -84,6 +85,25 @@ bool IsSecondPair(const Candidate& c, const Candidate& best) {
   return comparable && likely && StandsApart(c, best);
 }
 
+// Whether the mask shows another thing that is no sheet, label or ruler, which fill their outlines:
+// another instrument, perhaps not all of it.
+bool ShowsAnother(const Candidate& best) {
+  constexpr int kThings = 6;
+  constexpr double kLeastArea = 0.1;  // of the scissors'
+  constexpr double kFilled = 0.6;     // share of its convex hull
+  const std::vector<Silhouette> things = FindSilhouettes(best.mask, kThings);
+  const auto own = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
+    return IsShown(thing.filled, best.pair.pivot);
+  });
+  if (own == things.end()) return false;
+  return std::any_of(things.begin(), things.end(), [&](const Silhouette& thing) {
+    if (&thing == &*own || thing.area_px < kLeastArea * own->area_px) return false;
+    std::vector<cv::Point> hull;
+    cv::convexHull(thing.contour, hull);
+    return thing.area_px < kFilled * cv::contourArea(hull);
+  });
+}
+
 LadderResult Choose(const std::vector<Candidate>& candidates) {
   LadderResult result;
   const Candidate* best = nullptr;
@@ -139,13 +159,21 @@ LadderResult ClimbLadder(const Photo& photo,
   Rung all;
   LadderResult result = Consider(GreyRung(view), "rung-grey", &all, log);
   log->Ran("scene-grey", "the cheapest look");
-  if (Consistent(result)) {
+  const bool grey_suffices = Consistent(result);
+  if (grey_suffices && !ShowsAnother(result.best)) {
     log->Skipped("scene-colour", "grey gave a consistent scene");
     return result;
   }
   const ColourPictures colour = SmallColour(view, kSmallSide);
   Consider(ColourRung(view, colour), "rung-colour", &all, log);
-  result = Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", &all, log);
+  const LadderResult in_colour =
+      Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", &all, log);
+  if (grey_suffices) {
+    log->Ran("scene-colour", "another thing lies beside the scissors");
+    result.several = result.several || in_colour.several;
+    return result;
+  }
+  result = in_colour;
   log->Ran("scene-colour", "grey did not separate the blades");
   if (Consistent(result)) {
     log->Skipped("scene-flood", "colour gave a consistent scene");

@@ -234,6 +234,19 @@ TEST(FindScene, RefusesTwoPairsOfScissors) {
   EXPECT_EQ(ReasonFor(two), "several_scissors");
 }
 
+// As a ground as bright as itself swallows part of a blade.
+TEST(FindScene, RefusesTwoPairsOfWhichOneLostATip) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
+  const double tip = photo.truth.upper.end_px.x();
+  cv::Mat poor = photo.bgr.clone(), two;
+  const cv::Range columns(static_cast<int>(pivot.x() + 0.7 * (tip - pivot.x())), poor.cols);
+  poor(cv::Range(0, static_cast<int>(pivot.y())), columns) =
+      cv::mean(photo.bgr.col(photo.bgr.cols - 1));
+  cv::vconcat(photo.bgr, poor, two);
+  EXPECT_EQ(ReasonFor(two), "several_scissors");
+}
+
 // Edges that run along the rays from the pivot do not cross: a clamp, a forceps, a needle holder.
 TEST(MeasurePhoto, RefusesJawsThatMeet) {
   for (const double inclination : {0.005, 0.08}) {
