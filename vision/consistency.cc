@@ -39,8 +39,12 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
                     "scissors wider");
 }
 
+// Of the overlap at the pivot; jaws have 0.03 and less.
+constexpr double kLeastOfScissors = 0.055;
+
 void RefuseJaws(const Pivot& pivot) {
-  if (!MeetAtPivot(pivot)) return;
+  constexpr double kLeastOverlap = 0.04;  // between those of scissors and of jaws
+  if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
   throw Refused(
       Reason::kNotScissors,
       "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
@@ -69,10 +73,7 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseUnknownPivot(pivot, blades);
 }
 
-bool MeetAtPivot(const Pivot& pivot) {
-  constexpr double kLeastOverlap = 0.04;  // 0.055 and more for all scissors, 0.03 and less for jaws
-  return pivot.overlap + pivot.overlap_sigma < kLeastOverlap;
-}
+bool PassByPivot(const Pivot& pivot) { return pivot.overlap >= kLeastOfScissors; }
 
 bool IsClear(const LocatedEdge& edge) {
   constexpr double kClear = 0.5;  // ambiguity
@@ -105,15 +106,14 @@ void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   const bool seen = pivot.source != "geometry";
   const bool mirrored = std::abs(pivot.asymmetry) < kMost;
   if (!scene.IsDoubtful() || (seen && (mirrored || !scene.outlined))) return;
-  throw Refused(
-      Reason::kLowContrast,
-      "edges: shadows or a ground as bright as the blades leave " +
-          std::string(scene.outlined ? "nothing but lines to tell them by"
-                                     : "it in doubt what is blade") +
-          ", and " +
-          (seen ? "these do not mirror each other about the pivot"
-                : "no screw is seen that would confirm where the blades are") +
-          "; use another ground or softer light, or say where the screw is: --pivot X,Y");
+  throw Refused(Reason::kLowContrast,
+                "edges: shadows or a ground as bright as the blades leave " +
+                    std::string(scene.outlined ? "nothing but lines to tell them by"
+                                               : "it in doubt what is blade") +
+                    ", and " +
+                    (seen ? "these do not mirror each other about the pivot"
+                          : "no screw is seen that would confirm where the blades are") +
+                    "; use another ground or softer light, or say where the screw is: --pivot X,Y");
 }
 
 // Of the blades' length, as all that follow. Straight and curved scissors seen at a slant reach

@@ -14,8 +14,8 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
-// Whether the edges do, as jaws do, instead of passing by it.
-[[nodiscard]] bool MeetAtPivot(const Pivot& pivot);
+// Whether the edges pass by it as far as those of all scissors do; jaws' meet there.
+[[nodiscard]] bool PassByPivot(const Pivot& pivot);
 
 // Whether an edge by itself is in no doubt: no other border beside it, and known to a pixel; or in
 // grave doubt. Between the two nothing is said.

@@ -275,7 +275,10 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (!KnowsMirror(view, pivot)) {
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
-    if (!RelocateShadowedOne(view, pivot, blades))
+    if (RelocateShadowedOne(view, pivot, blades)) return;
+    const LocatedBlade& inner =
+        LiesInwards(blades->upper, pivot) ? blades->upper : blades->lower;
+    if (!IsClear(inner.edge))
       TraceInnerOne(view, LineBetween(view, pivot, *blades), pivot, blades);
     return;
   }
@@ -296,9 +299,10 @@ bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& bl
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const Blades before = *blades;
+  const bool passed = PassByPivot(*pivot);
   Relocate(view, *pivot, blades);
   CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
-  if (!MeetAtPivot(*pivot)) return;
+  if (!passed || PassByPivot(*pivot)) return;
   *blades = before;
   CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
 }
