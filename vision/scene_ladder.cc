@@ -57,8 +57,10 @@ bool IsShown(const cv::Mat& mask, const Eigen::Vector2d& place) {
 
 // Whether the mask of `c` shows it as another thing than the one that `best` is part of.
 bool StandsApart(const Candidate& c, const Candidate& best) {
+  const Eigen::Vector2d& own_tip = c.pair.first.tip;
+  if (!IsShown(c.mask, own_tip)) return false;
   cv::Mat others = c.mask.clone();
-  cv::floodFill(others, NearestPixel(c.pair.first.tip), 0);
+  cv::floodFill(others, NearestPixel(own_tip), 0);
   bool shown = false;
   for (const Eigen::Vector2d& part : {best.pair.pivot, best.pair.first.tip, best.pair.second.tip}) {
     const Eigen::Vector2d place = c.at->SmallFromFull(best.at->FullFromSmall(part));

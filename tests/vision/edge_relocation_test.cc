@@ -158,6 +158,18 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.upper.edge.ambiguity, kWarned);
 }
 
+// An oblique view parts clear edges as well.
+TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
+  const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
+  Measured::MakeClear(&measured.blades.upper);
+  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
+  measured.scale.sheet.reset();
+  Relocate(&measured);
+  EXPECT_EQ(measured.blades.upper.moved, "");
+}
+
 // Where the other edge is clear and this one is not: a trace that strayed into a ragged shadow.
 TEST(RelocateUnlikeEdges, FindsALostEdgeWithoutMarkers) {
   constexpr double kAstrayPx = 70, kClosePx = 0.3, kWarned = 0.5;
