@@ -134,6 +134,14 @@ bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
   return !AreSuspect(AsymmetryAbout(screw, known));
 }
 
+// The same as far as the view is known. A slanted one parts edges as well, but hardly so much about
+// what is too flat for a head.
+bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSlanted = 0.1;
+  if (known.scale.sheet) return MirrorAbout(screw, known);
+  return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
+}
+
 // What is seen in seven discs that cover the search: in each, a head is judged by its own
 // surroundings, and by as many candidates as in all of it.
 std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
@@ -158,9 +166,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
   if (forward && (forward->evidence > kBeyondDoubt || MirrorAbout(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
     const bool slotted = screw.slot && screw.slot->ends_seen;
-    const bool unlike =
-        known.scale.sheet && !MirrorAbout(screw, known);  // a slanted view parts edges as well
-    return screw.evidence > kFaintHead || (slotted && !unlike);
+    return screw.evidence > kFaintHead || (slotted && MayMirrorAbout(screw, known));
   };
   std::optional<Screw> clearest;
   for (const std::optional<Screw>& screw :
