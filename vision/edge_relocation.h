@@ -20,9 +20,9 @@ namespace bladecurve {
 // those mirror each other. Where they do, but one of them is doubtful, that one is looked for, and
 // taken if it is less doubtful there. Where neither stands out, the inner one is taken from the
 // other one's mirror image, if that lies on a faint step along its whole. Where nobody knows the
-// tilt of the view, otherwise only edges far unlike are looked for, inside a shadow or on a faint
-// step; whatever is moved is ambiguous then. Nothing is taken from where edges that pass by the
-// pivot would meet there instead.
+// tilt of the view, otherwise only edges far unlike are looked for, inside a shadow or, if they are
+// not clear, on a faint step; whatever is moved is ambiguous then. Edges that pass by the pivot as
+// those of scissors do stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve

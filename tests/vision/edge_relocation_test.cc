@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "measured_blades.h"
+#include "vision/consistency.h"
 
 namespace bladecurve {
 namespace {
@@ -40,6 +41,24 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
     EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx) << upper;
     EXPECT_LT(std::abs(measured.pivot.asymmetry), kAlike) << upper;
   }
+}
+
+// About a pivot so far forward that the edges hardly pass by it, the misplaced one stays.
+TEST(RelocateUnlikeEdges, TakesNoEdgeToWhereItWouldHardlyPassByThePivot) {
+  constexpr double kAsidePx = 16, kHardly = 0.04;
+  Measured measured{SceneWithMarkers()};
+  const auto compare = [&] {
+    CompareEdges(
+        measured.scene, PairOf(measured.blades.upper, measured.blades.lower), &measured.pivot);
+  };
+  for (compare(); measured.pivot.overlap > kHardly; compare())
+    measured.pivot.point_px += measured.truth.axis_px;
+  measured.Misplace(&measured.blades.upper, kAsidePx);
+  compare();
+  ASSERT_TRUE(PassByPivot(measured.pivot));
+  Relocate(&measured);
+  EXPECT_EQ(measured.blades.upper.moved, "");
+  EXPECT_TRUE(PassByPivot(measured.pivot));
 }
 
 // A bevel's inner border may stand out more than the cutting edge itself.
