@@ -127,9 +127,7 @@ std::pair<double, Vector2d> SpanAcross(const cv::Mat& filled,
   const auto reach = [&](double sign) {
     double d = 0;
     for (; d < filled.cols + filled.rows; d += 0.5) {
-      const Vector2d p = center + sign * d * across;
-      const cv::Point q = NearestPixel(p);
-      if (!cv::Rect({0, 0}, filled.size()).contains(q) || filled.at<uchar>(q) == 0) break;
+      if (!IsSetAt(filled, center + sign * d * across)) break;
     }
     return d;
   };

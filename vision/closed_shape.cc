@@ -30,9 +30,7 @@ Section SectionAcross(const cv::Mat& filled, const Vector2d& middle, const Vecto
   const int steps = static_cast<int>(std::ceil(2 * half_across.norm()));
   bool inside = false;
   for (int k = 0; k <= steps; ++k) {
-    const Vector2d p = middle + (2.0 * k / std::max(1, steps) - 1) * half_across;
-    const cv::Point at = NearestPixel(p);
-    const bool now = cv::Rect({0, 0}, filled.size()).contains(at) && filled.at<uchar>(at) != 0;
+    const bool now = IsSetAt(filled, middle + (2.0 * k / std::max(1, steps) - 1) * half_across);
     section.width += now ? 1 : 0;
     section.runs += now && !inside ? 1 : 0;
     inside = now;

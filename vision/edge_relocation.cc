@@ -140,6 +140,10 @@ bool IsBetter(const std::optional<Relocated>& found,
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
+Chosen InnerOne(const Pivot& pivot, Blades* blades) {
+  return OneOf(blades, LiesInwards(blades->upper, pivot));
+}
+
 // The other blade's edge, mirrored, for want of a better one: as good as that, the pivot and the
 // trace are, and marked as doubtful.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
@@ -161,7 +165,7 @@ void TraceInnerOne(const MirrorView& view,
                    const Pivot& pivot,
                    Blades* blades) {
   if (pivot.screw && IsFaint(*pivot.screw)) return;
-  const auto [inner, other] = OneOf(blades, LiesInwards(blades->upper, pivot));
+  const auto [inner, other] = InnerOne(pivot, blades);
   const Mirroring mirroring{view, pivot, other, line};
   const auto trace = FindMirroredTrace(view, inner, other, line, mirroring.WayPx());
   if (!trace) return;
@@ -276,9 +280,7 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
     if (RelocateShadowedOne(view, pivot, blades)) return;
-    const LocatedBlade& inner =
-        LiesInwards(blades->upper, pivot) ? blades->upper : blades->lower;
-    if (!IsClear(inner.edge))
+    if (!IsClear(InnerOne(pivot, blades).blade.edge))
       TraceInnerOne(view, LineBetween(view, pivot, *blades), pivot, blades);
     return;
   }
@@ -298,13 +300,13 @@ bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& bl
 }
 
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
-  const Blades before = *blades;
-  const bool passed = PassByPivot(*pivot);
+  const Blades blades_before = *blades;
+  const Pivot pivot_before = *pivot;
   Relocate(view, *pivot, blades);
   CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
-  if (!passed || PassByPivot(*pivot)) return;
-  *blades = before;
-  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
+  if (!PassByPivot(pivot_before) || PassByPivot(*pivot)) return;
+  *blades = blades_before;
+  *pivot = pivot_before;
 }
 
 }  // namespace bladecurve

@@ -96,6 +96,7 @@ bool RunsThroughCrotch(const Screw& screw, const Scene& scene) {
   return is_near(scene.shank_crotch_px) || is_near(scene.crotch_px);
 }
 
+// The head that is seen, unless it is in doubt and runs through a crotch.
 std::optional<Screw> Find(const cv::Mat& grey,
                           const ScaleResult& scale,
                           const Scene& scene,

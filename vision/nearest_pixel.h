@@ -16,4 +16,10 @@ namespace bladecurve {
   return {NearestPixel(at_px.x()), NearestPixel(at_px.y())};
 }
 
+// Whether a CV_8UC1 mask is set there; beyond its frame it is not.
+[[nodiscard]] inline bool IsSetAt(const cv::Mat& mask, const Eigen::Vector2d& at_px) {
+  const cv::Point pixel = NearestPixel(at_px);
+  return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
+}
+
 }  // namespace bladecurve

@@ -91,9 +91,7 @@ bool GoesOn(const cv::Mat& mask, const BladePair& pair, const BladeContour& blad
   constexpr double kSoonWidths = 3;                                          // of the shanks
   const Vector2d along = (blade.tip - pair.pivot).normalized(), across(-along.y(), along.x());
   const auto is_set = [&](double way, double beside) {
-    const Vector2d place = blade.tip + way * along + beside * across;
-    const cv::Point pixel(NearestPixel(place.x()), NearestPixel(place.y()));
-    return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
+    return IsSetAt(mask, blade.tip + way * along + beside * across);
   };
   const double beside = kBeside * blade.length;
   const double soon = std::max(kSoon * blade.length, kSoonWidths * pair.shank_width);

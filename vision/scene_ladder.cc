@@ -50,22 +50,17 @@ bool IsOftenSeen(const Candidate& c) {
 
 double FullSize(const Candidate& c) { return SizeOf(c.pair) * c.at->full_px_per_px(); }
 
-bool IsShown(const cv::Mat& mask, const Eigen::Vector2d& place) {
-  const cv::Point pixel = NearestPixel(place);
-  return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
-}
-
 // Whether the mask of `c` shows it as another thing than the one that `best` is part of.
 bool StandsApart(const Candidate& c, const Candidate& best) {
   const Eigen::Vector2d& own_tip = c.pair.first.tip;
-  if (!IsShown(c.mask, own_tip)) return false;
+  if (!IsSetAt(c.mask, own_tip)) return false;
   cv::Mat others = c.mask.clone();
   cv::floodFill(others, NearestPixel(own_tip), 0);
   bool shown = false;
   for (const Eigen::Vector2d& part : {best.pair.pivot, best.pair.first.tip, best.pair.second.tip}) {
     const Eigen::Vector2d place = c.at->SmallFromFull(best.at->FullFromSmall(part));
-    if (IsShown(c.mask, place) && !IsShown(others, place)) return false;
-    shown = shown || IsShown(others, place);
+    if (IsSetAt(c.mask, place) && !IsSetAt(others, place)) return false;
+    shown = shown || IsSetAt(others, place);
   }
   return shown;
 }
@@ -95,7 +90,7 @@ bool ShowsAnother(const Candidate& best) {
   constexpr double kFilled = 0.6;     // share of its convex hull
   const std::vector<Silhouette> things = FindSilhouettes(best.mask, kThings);
   const auto own = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
-    return IsShown(thing.filled, best.pair.pivot);
+    return IsSetAt(thing.filled, best.pair.pivot);
   });
   if (own == things.end()) return false;
   return std::any_of(things.begin(), things.end(), [&](const Silhouette& thing) {
