@@ -58,6 +58,10 @@ Eigen::Vector3d Metal::Reflect(const Surface& surface) const {
          (light.exposure * backlit * (ceiling + below + highlight) * (1 + surface.brushing));
 }
 
+double Metal::Streak(std::uint64_t pattern, double x, double y) const {
+  return scene_.scissors.brushing * SmoothNoise(scene_.seed + pattern, x, y);
+}
+
 Metal::Surface Metal::BladeSurface(const Eigen::Vector2d& p) const {
   const ScissorsSpec& spec = scene_.scissors;
   const double from_edge = p.y() - outline_.edge.At(p.x());
@@ -66,7 +70,7 @@ Metal::Surface Metal::BladeSurface(const Eigen::Vector2d& p) const {
                        along * (2 * spec.tip_radius_mm - outline_.back_mm + outline_.edge.At(0));
   const double across = std::clamp(2 * from_edge / width - 1, -1.0, 1.0);
   // Ground across the blade: streaks along v, long in v and fine in u.
-  const double streak = SmoothNoise(scene_.seed + (upper_ ? 31 : 37), p.x() / 0.35, p.y() / 7);
+  const double streak = Streak(upper_ ? 31 : 37, p.x() / 0.35, p.y() / 7);
   constexpr double kInnerFlat = 0.03, kOuterRound = 0.22, kBevelTilt = 0.34;
   if (!on_top_) return {{0.02 * streak, kInnerFlat * across}, 0.10 * streak};
   const double bevel = spec.bevel_mm > 0 && p.x() > 0
@@ -82,7 +86,7 @@ Metal::Surface Metal::ShankSurface(const Eigen::Vector2d& p) const {
   const double t = std::clamp((path[0].x() - p.x()) / (path[0].x() - path[3].x()), 0.0, 1.0);
   const double across =
       std::clamp((p.y() - BezierPoint(path, t).y()) / outline_.shank_half_mm, -1.2, 1.2);
-  const double streak = SmoothNoise(scene_.seed + (upper_ ? 41 : 43), p.x() / 9, p.y() / 0.3);
+  const double streak = Streak(upper_ ? 41 : 43, p.x() / 9, p.y() / 0.3);
   constexpr double kRoundness = 0.75;  // flat on top, steep at its sides
   return {{0, kRoundness * across * across * across + 0.02 * streak}, 0.05 * streak};
 }
@@ -101,7 +105,7 @@ Eigen::Vector3d Metal::RingAt(const Eigen::Vector2d& p) const {
   const double radius = std::max(scaled.norm(), 1e-6);
   const double mean_mm = outline_.ring_middle_mm.mean();
   const double across = std::clamp((radius - 1) * mean_mm / outline_.tube_half_mm, -1.0, 1.0);
-  const double streak = SmoothNoise(scene_.seed + 47, p.x() / 2, p.y() / 2);
+  const double streak = Streak(47, p.x() / 2, p.y() / 2);
   constexpr double kRoundness = 0.9;
   return Reflect({kRoundness * across * std::abs(across) * scaled / radius, 0.03 * streak});
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 
 #include "vision/render_outline.h"
@@ -26,8 +27,10 @@ class Metal {
  private:
   struct Surface {
     Eigen::Vector2d tilt;  // of the normal, along u and v; 0 faces the camera
-    double brushing;       // relative change of brightness by the streaks of grinding
+    double brushing;       // relative change of brightness by the streaks
   };
+  // Of grinding, -1 to 1 times the spec's brushing; coordinates in units of a streak.
+  [[nodiscard]] double Streak(std::uint64_t pattern, double x, double y) const;
   [[nodiscard]] Surface BladeSurface(const Eigen::Vector2d& blade_mm) const;
   [[nodiscard]] Surface ShankSurface(const Eigen::Vector2d& blade_mm) const;
   [[nodiscard]] Eigen::Vector3d Reflect(const Surface& surface) const;

@@ -138,14 +138,14 @@ std::optional<RefinedRim> FitLight(const cv::Mat& light,
   return best;
 }
 
-// Whether the scatter along the rim is far less and the centre no other. A rim that light or other
+// Whether the scatter along the rim is less and the centre no other. A rim that light or other
 // edges distort scatters alike whatever its grain, or has its centre moved by which places count;
 // there the plain fit, to which all count alike, errs less.
 bool Gains(const RimFit& in_grain, const RimFit& plain) {
-  constexpr double kFarLess = 0.5;  // of the variance; light alone makes it less by a third
-  constexpr double kSame = 5.99;    // chi^2 of two coordinates, 95 %
+  constexpr double kLess = 0.8;   // of the variance
+  constexpr double kSame = 5.99;  // chi^2 of two coordinates, 95 %
   const Eigen::Vector2d apart = in_grain.rim.center - plain.rim.center;
-  return Scatter(in_grain) < kFarLess * Scatter(plain) &&
+  return Scatter(in_grain) < kLess * Scatter(plain) &&
          apart.dot(plain.center_covariance.inverse() * apart) < kSame;
 }
 

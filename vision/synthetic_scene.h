@@ -23,6 +23,7 @@ struct ScissorsSpec {
   double width_mm = 10;  // of a blade at the pivot
   double tip_radius_mm = 1.2;   // blunt Mayo 1.5, Metzenbaum 1, iris 0.3
   double bevel_mm = 1.6;        // ground band along the edge; 0: none
+  double brushing = 1;          // strength of the streaks that grinding leaves; 0: smooth metal
   double thickness_mm = 1.9;    // of a blade
   double shank_mm = 5.0;        // width of a shank
   double shank_length_mm = 78;  // pivot to where the ring begins

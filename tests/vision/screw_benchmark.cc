@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Accuracy of the screw's centre beside the Cramer-Rao bound, and the time it takes: drawn heads,
-// and heads of rendered scissors, whose rims are rounded and lit from one side (no bound).
+// and heads of rendered scissors, whose rims are rounded (no bound): smooth and brushed blades in
+// even light, then brushed ones lit from one side.
 #include <fmt/format.h>
 
 #include <Eigen/LU>
@@ -59,8 +60,8 @@ Case Drawn(const Look& look, double radius, std::uint32_t seed) {
   return drawn;
 }
 
-// The head of rendered scissors, its rim rounded, a lamp on one side of it.
-Case Lit(double glint, double radius, std::uint32_t seed) {
+// The head of rendered scissors.
+Case Rendered(double brushing, double glint, double radius, std::uint32_t seed) {
   Draws draws(seed);
   SceneSpec scene;
   scene.seed = seed;
@@ -68,13 +69,14 @@ Case Lit(double glint, double radius, std::uint32_t seed) {
   scene.camera.blur_px = 1;
   scene.width = static_cast<int>(96 / scene.camera.mm_per_px);
   scene.height = static_cast<int>(72 / scene.camera.mm_per_px);
+  scene.scissors.brushing = brushing;
   scene.light.glint = glint;
   scene.light.direction_rad = draws.Uniform(0, 2 * std::numbers::pi);
   scene.scissors.slot_rad = draws.Uniform(0, std::numbers::pi);
   const RenderedPhoto photo = RenderScene(scene);
-  Case lit{{}, photo.truth.screw_px, std::nan("")};
-  cv::cvtColor(photo.bgr, lit.grey, cv::COLOR_BGR2GRAY);
-  return lit;
+  Case head{{}, photo.truth.screw_px, std::nan("")};
+  cv::cvtColor(photo.bgr, head.grey, cv::COLOR_BGR2GRAY);
+  return head;
 }
 
 // draw(seed) gives the cases.
@@ -138,10 +140,17 @@ int main() {
       });
     }
   }
-  for (const auto& [name, glint] : {std::pair{"even light", 0.0}, {"lamp", 0.5}, {"sun", 1.2}}) {
+  struct Light {
+    std::string name;
+    double brushing, glint;
+  };
+  for (const Light& light : {Light{"smooth, even", 0, 0},
+                             Light{"brushed, even", 1, 0},
+                             Light{"lamp", 1, 0.5},
+                             Light{"sun", 1, 1.2}}) {
     for (const double radius : {15.0, 30.0, 60.0}) {
-      bladecurve::Measure(name, radius, bladecurve::kScenes, [&](std::uint32_t seed) {
-        return bladecurve::Lit(glint, radius, seed);
+      bladecurve::Measure(light.name, radius, bladecurve::kScenes, [&](std::uint32_t seed) {
+        return bladecurve::Rendered(light.brushing, light.glint, radius, seed);
       });
     }
   }
