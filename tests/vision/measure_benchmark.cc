@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
 
-constexpr int kRuns = 5;  // the quickest counts: others may use the machine
+constexpr int kRuns = 20;  // the quickest counts: others may use the machine
 
 struct Look {
   std::string name;
