@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "vision/png_writer.h"
 
+#include <libdeflate.h>
 #include <png.h>
 
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
+#include <new>
 #include <stdexcept>
+#include <vector>
+
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -17,6 +22,12 @@ constexpr double kInchesPerMetre = 1 / 0.0254;
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+struct FreeCompressor {
+  void operator()(libdeflate_compressor* compressor) const {
+    libdeflate_free_compressor(compressor);
+  }
 };
 
 // Owns libpng's writer.
@@ -28,6 +39,41 @@ struct PngWriter {
   PngWriter(const PngWriter&) = delete;
   PngWriter& operator=(const PngWriter&) = delete;
 };
+
+// Rows as a PNG holds them before compression, colours as RGB: each a byte for its filter, then its
+// differences from the row above. That filter alone is quicker than to try all, and takes a tenth
+// more bytes at most.
+std::vector<uchar> FilteredRows(const cv::Mat& image) {
+  const int channels = image.channels(), width = image.cols * channels;
+  const std::size_t stride = 1 + static_cast<std::size_t>(width);
+  std::vector<uchar> rows(stride * static_cast<std::size_t>(image.rows));
+  const std::vector<uchar> black(static_cast<std::size_t>(width));
+  ParallelForBands(image.rows, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const uchar* above = y > 0 ? image.ptr<uchar>(y - 1) : black.data();
+      const uchar* row = image.ptr<uchar>(y);
+      uchar* out = rows.data() + stride * static_cast<std::size_t>(y);
+      *out++ = PNG_FILTER_VALUE_UP;
+      for (int x = 0; x < width; x += channels) {
+        for (int c = channels - 1; c >= 0; --c)
+          *out++ = static_cast<uchar>(row[x + c] - above[x + c]);
+      }
+    }
+  });
+  return rows;
+}
+
+// As a zlib stream. libdeflate: three times as fast as zlib at this level.
+std::vector<uchar> Compressed(const std::vector<uchar>& bytes) {
+  constexpr int kQuick = 1;
+  const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
+      libdeflate_alloc_compressor(kQuick));
+  if (!compressor) throw std::bad_alloc();
+  std::vector<uchar> packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()));
+  packed.resize(libdeflate_zlib_compress(
+      compressor.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
+  return packed;
+}
 
 void WriteHeader(const PngWriter& writer, const cv::Mat& image, double dpi) {
   const int type = image.channels() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB;
@@ -44,21 +90,21 @@ void WriteHeader(const PngWriter& writer, const cv::Mat& image, double dpi) {
     const png_uint_32 per_metre = static_cast<png_uint_32>(std::lround(dpi * kInchesPerMetre));
     png_set_pHYs(writer.png, writer.info, per_metre, per_metre, PNG_RESOLUTION_METER);
   }
-  // Of a photograph with lines on it: a quarter to a third of the time of all filters at level 3,
-  // and at most a fifth more bytes.
-  png_set_filter(writer.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
-  png_set_compression_level(writer.png, 1);
   png_write_info(writer.png, writer.info);
-  png_set_bgr(writer.png);
 }
 
 // False if libpng failed. No object with a destructor lives here: libpng's jump would skip it.
-bool WritePixels(const PngWriter& writer, std::FILE* file, const cv::Mat& image, double dpi) {
+bool WriteChunks(const PngWriter& writer,
+                 std::FILE* file,
+                 const cv::Mat& image,
+                 const std::vector<uchar>& packed,
+                 double dpi) {
+  static constexpr png_byte kPixels[] = "IDAT", kEnd[] = "IEND";
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
   png_init_io(writer.png, file);
   WriteHeader(writer, image, dpi);
-  for (int y = 0; y < image.rows; ++y) png_write_row(writer.png, image.ptr<uchar>(y));
-  png_write_end(writer.png, nullptr);
+  png_write_chunk(writer.png, kPixels, packed.data(), packed.size());
+  png_write_chunk(writer.png, kEnd, nullptr, 0);
   return true;
 }
 
@@ -72,8 +118,10 @@ void WritePng(const std::filesystem::path& path, const cv::Mat& image, const Png
   if (!file)
     throw std::runtime_error("png: cannot write " + path.string() +
                              "; is the folder there and writable?");
+  const std::vector<uchar> packed = Compressed(FilteredRows(image));
   const PngWriter writer;
-  if (!WritePixels(writer, file.get(), image, options.dpi) || std::fflush(file.get()) != 0) {
+  if (!WriteChunks(writer, file.get(), image, packed, options.dpi) ||
+      std::fflush(file.get()) != 0) {
     throw std::runtime_error("png: writing " + path.string() + " failed; is the disk full?");
   }
 }
