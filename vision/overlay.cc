@@ -11,6 +11,7 @@
 
 #include "vision/overlay_canvas.h"
 #include "vision/overlay_detail.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -44,7 +45,9 @@ Layout LayOut(const Photo& photo) {
 // The photograph as it is shown: one affine map both turns it by its EXIF orientation and scales
 // it.
 void PaintPhoto(const Photo& photo, const Layout& layout, cv::Mat image) {
-  const cv::Mat colour = photo.DecodeColour(2000);
+  constexpr double kSlack = 1.25;  // linear interpolation reduces by that without losing pixels
+  const cv::Mat colour =
+      photo.DecodeColour(std::max(layout.photo_width, layout.photo_height), kSlack);
   const Vector2d displayed_size(photo.displayed_width(), photo.displayed_height());
   const bool turned = photo.metadata().orientation >= 5;
   const Vector2d stored_size =
@@ -212,6 +215,18 @@ void DrawDetails(const Photo& photo, const Overlay& overlay, const Layout& layou
   DrawText(view, Text("worst: %.2f px", off, 0), {place.x * 1.0, base}, layout.text, kPaperColour);
 }
 
+void DrawOnPhoto(const Photo& photo,
+                 const Overlay& overlay,
+                 const Layout& layout,
+                 const cv::Mat& image) {
+  PaintPhoto(photo, layout, image);
+  View view = PhotoView(layout, image);
+  DrawEdges(view, overlay);
+  DrawPivot(view, overlay, layout.text);
+  DrawAngle(view, overlay, layout.text);
+  DrawScaleBar(view, overlay, layout);
+}
+
 void RequireDrawable(const Overlay& overlay) {
   if (overlay.upper_edge_px.size() < 2 ||
       overlay.upper_edge_px.size() != overlay.fitted_edge_px.size()) {
@@ -228,15 +243,12 @@ cv::Mat DrawOverlay(const Photo& photo, const Overlay& overlay) {
   const int width = layout.photo_width;
   cv::Mat picture(layout.title_height + layout.photo_height + layout.detail_height, width, CV_8UC3);
   DrawTitle(overlay, layout, picture(cv::Rect(0, 0, width, layout.title_height)));
-  const cv::Mat shown = picture(cv::Rect(0, layout.title_height, width, layout.photo_height));
-  PaintPhoto(photo, layout, shown);
-  View view = PhotoView(layout, shown);
-  DrawEdges(view, overlay);
-  DrawPivot(view, overlay, layout.text);
-  DrawAngle(view, overlay, layout.text);
-  DrawScaleBar(view, overlay, layout);
-  const int below = layout.title_height + layout.photo_height;
-  DrawDetails(photo, overlay, layout, picture(cv::Rect(0, below, width, layout.detail_height)));
+  const cv::Rect shown(0, layout.title_height, width, layout.photo_height);
+  const cv::Rect below(0, shown.br().y, width, layout.detail_height);
+  ParallelFor(2, [&](int part) {
+    if (part == 0) DrawOnPhoto(photo, overlay, layout, picture(shown));
+    if (part == 1) DrawDetails(photo, overlay, layout, picture(below));
+  });
   return picture;
 }
 

@@ -141,11 +141,11 @@ Photo Photo::Load(const std::filesystem::path& path) {
 
 std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
-cv::Mat Photo::DecodeColour(int max_side) const {
+cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");
   const cv::Mat colour = Decode(bytes_, {true, max_side}).pixels;
   const double factor = static_cast<double>(max_side) / std::max(colour.cols, colour.rows);
-  if (factor >= 1) return colour;
+  if (factor * slack >= 1) return colour;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(colour.cols * factor))),
                       std::max(1, static_cast<int>(std::lround(colour.rows * factor))));
   cv::Mat small;

@@ -27,8 +27,8 @@ class Photo {
 
   [[nodiscard]] const cv::Mat& grey() const { return grey_; }  // CV_8UC1, encoded (not linear) luma
   // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
-  // will do.
-  [[nodiscard]] cv::Mat DecodeColour(int max_side) const;
+  // will do. Up to `slack` times that, >= 1, where that saves reducing it.
+  [[nodiscard]] cv::Mat DecodeColour(int max_side, double slack = 1) const;
   // Of the file's bytes, lower-case hex; made when asked for.
   [[nodiscard]] std::string Sha256() const;
   [[nodiscard]] const PhotoMetadata& metadata() const { return metadata_; }

@@ -297,6 +297,29 @@ TEST(Photo, DecodesColourAsSmallAsAsked) {
   EXPECT_THROW(static_cast<void>(photo.DecodeColour(0)), std::invalid_argument);
 }
 
+TEST(Photo, DecodesColourLargerThanAskedOnlyWithinTheSlack) {
+  const Photo photo =
+      Photo::Load(Write("slack.jpg", Jpeg(Gradient(1600, 1200), {JCS_RGB, 3, 0, ""})));
+  EXPECT_EQ(photo.DecodeColour(790, 1.02).size(), cv::Size(800, 600));  // half of each side
+  EXPECT_EQ(photo.DecodeColour(790, 1.01).cols, 790);
+  EXPECT_EQ(photo.DecodeColour(1000, 1.25).cols, 1000);
+}
+
+TEST(WritePng, ComesBackAsItWas) {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 300), cv::Size(301, 5)}) {
+    for (const int type : {CV_8UC1, CV_8UC3}) {
+      cv::Mat picture(size, type);
+      cv::randu(picture, 0, 256);
+      const fs::path file = ProcessFolder() / "written.png";
+      WritePng(file, picture);
+      const Photo photo = Photo::Load(file);
+      const cv::Mat back =
+          type == CV_8UC1 ? photo.grey() : photo.DecodeColour(std::max(size.width, size.height));
+      EXPECT_EQ(cv::norm(back, picture, cv::NORM_INF), 0) << size << " type " << type;
+    }
+  }
+}
+
 TEST(PhotoMetadata, TrustsAResolutionOnlyFromAScanner) {
   const cv::Mat grey = Gradient(40, 30);
   EXPECT_EQ(Photo::Load(Write("scan.jpg", Jpeg(grey, {JCS_GRAYSCALE, 1, 300, ""}))).metadata().dpi,
