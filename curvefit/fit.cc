@@ -3,7 +3,9 @@
 #include "curvefit/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 
@@ -13,6 +15,7 @@
 #include "curvefit/family_fit.h"
 #include "curvefit/mirror.h"
 #include "curvefit/recommend.h"
+#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -178,6 +181,24 @@ CurveDomain DomainOf(const FitData& data, const SplineSpace& space) {
   return domain;
 }
 
+// A curve at an angle that may be two thirds less or more is of no use.
+void RefuseUnknownTheta(const FitData& data, const std::vector<FittedPose>& poses) {
+  constexpr double kMost = 1.0 / 3;  // standard uncertainty over the angle
+  for (size_t p = 0; p < poses.size(); ++p) {
+    const FittedPose& pose = poses[p];
+    if (data.photos[p].theta_given || pose.theta_sigma_rad < kMost * pose.theta_rad) continue;
+    std::array<char, 60> theta{};
+    std::snprintf(theta.data(),
+                  theta.size(),
+                  "%.1f +- %.1f deg",
+                  pose.theta_rad / kDegree,
+                  pose.theta_sigma_rad / kDegree);
+    throw Refused(Reason::kFitFailed,
+                  "fit: " + data.photos[p].name + ": theta is " + theta.data() +
+                      ", as the tip of a blade is lost; show both tips clearly, or give theta");
+  }
+}
+
 void CountRejected(const BladeFit& report, FamilyFit& fit) {
   for (const RejectedPoint& point : report.rejected) fit.points += point.is_upper ? 1 : 0;
 }
@@ -210,6 +231,7 @@ BladeFit FitBlade(const std::vector<EdgePoints>& photos, const FitOptions& optio
   CountRejected(report, tapered);
   report.knots_tried = choice.tried;
   Recommend(input, options, std::move(spline), std::move(tapered), report);
+  RefuseUnknownTheta(data, report.poses);
   return report;
 }
 

@@ -176,12 +176,16 @@ void SetTheta(const EdgePoints& photo, PhotoData& data) {
   data.theta_weight = WeightOf(has_sigma ? photo.theta_sigma_rad : kGivenThetaSigma);
 }
 
+// Of the ends' rays; theta where there is no lower end.
+double AngleBetweenEnds(const PhotoData& data) {
+  if (!data.lower_end) return *data.theta;
+  return std::remainder(Angle(data.upper_end) - Angle(*data.lower_end), 2 * std::numbers::pi);
+}
+
 // Blade frames along the rays to the ends; a given theta turns both by half the difference.
 void SetStart(PhotoData& data) {
-  const double upper = Angle(data.upper_end);
-  const double lower = data.lower_end ? Angle(*data.lower_end) : upper - *data.theta;
-  const double rays = std::remainder(upper - lower, 2 * std::numbers::pi);
-  const double turn = data.theta ? *data.theta - rays : 0;
+  const double upper = Angle(data.upper_end), rays = AngleBetweenEnds(data);
+  const double turn = data.ObservedTheta() - rays;
   data.start = {0, 0, upper + turn / 2, upper - rays - turn / 2, 0, 0};
 }
 
@@ -211,6 +215,8 @@ PhotoData Prepare(const EdgePoints& photo, double length_mm) {
 }
 
 }  // namespace
+
+double PhotoData::ObservedTheta() const { return theta ? *theta : AngleBetweenEnds(*this); }
 
 bool FitData::theta_given() const {
   return std::any_of(

@@ -46,6 +46,8 @@ struct PhotoData {
   bool theta_given = false;
   double scale_weight = 0, offset_weight = 0;
   Pose start{};
+
+  [[nodiscard]] double ObservedTheta() const;  // by the ends' rays, or by other means
 };
 
 struct FitData {

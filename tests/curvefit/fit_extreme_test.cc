@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 
 #include "curvefit/bands.h"
 #include "curvefit/fit.h"
@@ -153,6 +154,38 @@ TEST(Extreme, SigmaFromNanometresTo1Metre) {
   vague.sigma_mm = 1e3;
   const BladeFit fit = FitBlade({Simulate(StraightScissors(), vague)});
   EXPECT_GT(CurveBand(fit.recommended).At(30, 0.5).phi_mm, 10);
+}
+
+TEST(Extreme, ALostTipLeavesNoCurveUnlessThetaIsGiven) {
+  SimulatedPhoto photo;
+  photo.lower = false;
+  EdgePoints edges = Simulate(CurvedScissors(), photo);
+  EXPECT_NO_THROW(static_cast<void>(FitBlade({edges})));
+  edges.lower_end.covariance_mm2 = 20 * 20 * Eigen::Matrix2d::Identity();
+  try {
+    static_cast<void>(FitBlade({edges}));
+    ADD_FAILURE() << "theta is known to a radian only";
+  } catch (const Refused& refusal) {
+    EXPECT_EQ(refusal.reason(), Reason::kFitFailed);
+    EXPECT_NE(std::string(refusal.what()).find("theta is"), std::string::npos) << refusal.what();
+  }
+  edges.theta_given = true;
+  EXPECT_NO_THROW(static_cast<void>(FitBlade({edges})));
+}
+
+// An edge whose last part is bent away, as by a shadow beside the tip, draws theta with it.
+TEST(Extreme, ThetaIsAsUncertainAsTheFitMovedItFromTheEnds) {
+  SimulatedPhoto photo;
+  photo.noise_scale = 0;
+  photo.sigma_mm = 0.005;
+  photo.end_along_sigma_mm = 3;
+  EdgePoints edges = Simulate(CurvedScissors(), photo);
+  const double before = FitBlade({edges}).poses[0].theta_sigma_rad;
+  for (EdgePoint& p : edges.upper) p.point_mm.y() -= 0.0005 * std::pow(p.point_mm.x() - 10, 2);
+  const FittedPose pose = FitBlade({edges}).poses[0];
+  const double moved = std::abs(pose.theta_rad - photo.theta_rad);
+  EXPECT_GT(moved, 3 * before);
+  EXPECT_GT(1.96 * pose.theta_sigma_rad, moved);
 }
 
 TEST(Extreme, KnotsWithoutDataAreNotPlaced) {
