@@ -24,7 +24,7 @@ enum class Reason {
   kLowContrast,        // the blade does not stand out from its background
   kEdgeTooShort,       // too little free edge between crotch and tip
   kAmbiguousPivot,     // no screw, and the blades do not say where they turn
-  kFitFailed,          // no curve explains the points
+  kFitFailed,          // no curve explains the points, or they leave theta open
 };
 
 // "not_scissors", "closed", ...
