@@ -186,7 +186,8 @@ void RefuseUnknownTheta(const FitData& data, const std::vector<FittedPose>& pose
   constexpr double kMost = 1.0 / 3;  // standard uncertainty over the angle
   for (size_t p = 0; p < poses.size(); ++p) {
     const FittedPose& pose = poses[p];
-    if (data.photos[p].theta_given || pose.theta_sigma_rad < kMost * pose.theta_rad) continue;
+    if (data.photos[p].theta_given || pose.theta_sigma_rad < kMost * std::abs(pose.theta_rad))
+      continue;
     std::array<char, 60> theta{};
     std::snprintf(theta.data(),
                   theta.size(),

@@ -91,15 +91,6 @@ void Append(MinimizerReport next, MinimizerReport& report) {
   report = std::move(next);
 }
 
-// The rays to the ends alone say theta with an honest uncertainty, but a wide one, even where light
-// falsifies a part of an edge; that part draws the fit, whose own covariance knows nothing of it.
-// So the fit counts this part of the square by which it moved theta: 1.96 sigma then hold 95 % of
-// photoreal scenes.
-double ThetaSigma(double variance, double moved_rad) {
-  constexpr double kOfMove = 0.6;
-  return std::sqrt(std::max(0.0, variance) + kOfMove * moved_rad * moved_rad);
-}
-
 bool HasGain(const JointModel& model) { return !model.space && model.free_gain; }
 
 }  // namespace
@@ -264,7 +255,7 @@ std::vector<FittedPose> PosesInMm(const FitData& data,
     out.pivot_covariance_mm2 = data.length_mm * data.length_mm * c.topLeftCorner<2, 2>();
     out.pivot_sigma_mm = std::sqrt(out.pivot_covariance_mm2.trace() / 2);
     out.axis_sigma_rad = std::sqrt(std::max(0.0, sum + cross)) / 2;
-    out.theta_sigma_rad = ThetaSigma(sum - cross, out.theta_rad - data.photos[p].ObservedTheta());
+    out.theta_sigma_rad = std::sqrt(std::max(0.0, sum - cross));
     out.scale_relative = pose[kScale];
     out.offset_mm = data.length_mm * pose[kOffset];
     poses.push_back(out);

@@ -113,6 +113,7 @@ TEST(Layers, VisionKnowsNeitherModelNorCurvefit) {
                      "jpeglib.h",
                      "jerror.h",
                      "png.h",
+                     "libdeflate.h",
                      "tiffio.h",
                      "libheif/",
                      "libexif/",

@@ -152,6 +152,7 @@ TEST(Extreme, SigmaFromNanometresTo1Metre) {
   SimulatedPhoto vague;
   vague.noise_scale = 0;
   vague.sigma_mm = 1e3;
+  vague.theta_given = true;  // such edges leave theta open
   const BladeFit fit = FitBlade({Simulate(StraightScissors(), vague)});
   EXPECT_GT(CurveBand(fit.recommended).At(30, 0.5).phi_mm, 10);
 }
