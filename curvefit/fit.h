@@ -94,7 +94,7 @@ struct BladeFit {
 // as independent. Domain of the curve: x from the first free edge point to the last one's reach at
 // the smallest theta; theta from 0 to 60 deg, or a quarter beyond the largest photographed angle.
 // Throws std::invalid_argument for impossible options, Refused{kFitFailed, kEdgeTooShort} if no
-// curve can be had.
+// curve can be had or theta stays open.
 [[nodiscard]] BladeFit FitBlade(const std::vector<EdgePoints>& photos,
                                 const FitOptions& options = {});
 

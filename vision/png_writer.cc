@@ -41,8 +41,8 @@ struct PngWriter {
 };
 
 // Rows as a PNG holds them before compression, colours as RGB: each a byte for its filter, then its
-// differences from the row above. That filter alone is quicker than to try all, and takes a tenth
-// more bytes at most.
+// differences from the row above. To choose among all filters takes longer and saves a sixth of the
+// bytes at most.
 std::vector<uchar> FilteredRows(const cv::Mat& image) {
   const int channels = image.channels(), width = image.cols * channels;
   const std::size_t stride = 1 + static_cast<std::size_t>(width);
@@ -63,7 +63,7 @@ std::vector<uchar> FilteredRows(const cv::Mat& image) {
   return rows;
 }
 
-// As a zlib stream. libdeflate: three times as fast as zlib at this level.
+// As a zlib stream. libdeflate: over twice as fast as zlib at this level, and fewer bytes.
 std::vector<uchar> Compressed(const std::vector<uchar>& bytes) {
   constexpr int kQuick = 1;
   const std::unique_ptr<libdeflate_compressor, FreeCompressor> compressor(
