@@ -245,10 +245,8 @@ cv::Mat DrawOverlay(const Photo& photo, const Overlay& overlay) {
   DrawTitle(overlay, layout, picture(cv::Rect(0, 0, width, layout.title_height)));
   const cv::Rect shown(0, layout.title_height, width, layout.photo_height);
   const cv::Rect below(0, shown.br().y, width, layout.detail_height);
-  ParallelFor(2, [&](int part) {
-    if (part == 0) DrawOnPhoto(photo, overlay, layout, picture(shown));
-    if (part == 1) DrawDetails(photo, overlay, layout, picture(below));
-  });
+  ParallelAside([&] { DrawOnPhoto(photo, overlay, layout, picture(shown)); },
+                [&] { DrawDetails(photo, overlay, layout, picture(below)); });
   return picture;
 }
 

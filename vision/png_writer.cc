@@ -41,8 +41,7 @@ struct PngWriter {
 };
 
 // Rows as a PNG holds them before compression, colours as RGB: each a byte for its filter, then its
-// differences from the row above. To choose among all filters takes longer and saves a sixth of the
-// bytes at most.
+// differences from the row above; to choose among all filters would take longer.
 std::vector<uchar> FilteredRows(const cv::Mat& image) {
   const int channels = image.channels(), width = image.cols * channels;
   const std::size_t stride = 1 + static_cast<std::size_t>(width);

@@ -152,7 +152,9 @@ TEST(Extreme, SigmaFromNanometresTo1Metre) {
   SimulatedPhoto vague;
   vague.noise_scale = 0;
   vague.sigma_mm = 1e3;
-  vague.theta_given = true;  // such edges leave theta open
+  EXPECT_THROW(static_cast<void>(FitBlade({Simulate(StraightScissors(), vague)})), Refused)
+      << "such edges leave theta open";
+  vague.theta_given = true;
   const BladeFit fit = FitBlade({Simulate(StraightScissors(), vague)});
   EXPECT_GT(CurveBand(fit.recommended).At(30, 0.5).phi_mm, 10);
 }

@@ -11,7 +11,6 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
-#include <utility>
 
 #include "vision/render.h"
 #include "vision/screw.h"
