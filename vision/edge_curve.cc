@@ -140,29 +140,37 @@ struct DistalPoint {
 
 std::vector<DistalPoint> DistalPoints(const std::vector<LocatedEdgePoint>& points,
                                       const Vector2d& along,
-                                      const Vector2d& across) {
-  constexpr double kFrom = 0.25;  // of the way
+                                      const Vector2d& across,
+                                      double to) {
+  constexpr double kFrom = -0.6;  // of the way, from the place
   std::vector<DistalPoint> distal;
   for (const LocatedEdgePoint& point : points) {
     const Vector2d from_origin = point.point_px - points.front().point_px;
     const double u = from_origin.dot(along) / along.squaredNorm() - 1;
-    if (point.inlier && u > kFrom - 1 && u < 0)
+    if (point.inlier && u > kFrom && u < to)
       distal.push_back({&point, {1, u, u * u, u * u * u}, from_origin.dot(across)});
   }
   return distal;
 }
 
-// Of a robust cubic where its rows begin: its first coefficient. The variance takes the points for
-// independent.
+// Of a robust cubic at the place.
 struct Offset {
-  double px = 0, variance_px2 = 0;
+  double px = 0, sigma_px = 0;
 };
 
-Offset OffsetAtPlace(const std::vector<DistalPoint>& distal) {
+// Errors of points nearer to each other than `correlation_px` go together. Third order is expected
+// to be a hundredth of the way, as blades have it: points that say little about it do not carry the
+// cubic away where it is continued.
+Offset OffsetAtPlace(const std::vector<DistalPoint>& distal, double way_px, double correlation_px) {
+  constexpr double kUsualThird = 0.012;
+  const double seen_px = (distal.back().row[1] - distal.front().row[1]) * way_px;
+  const double together =
+      std::max(1.0, correlation_px * static_cast<double>(distal.size()) / std::max(1.0, seen_px));
+  const Vector4d prior = Vector4d::UnitW() * std::pow(kUsualThird * way_px, -2) * together;
   Vector4d cubic = Vector4d::Zero();
   Offset offset;
   for (int round = 0; round < kRounds; ++round) {
-    Matrix4d normal = Matrix4d::Zero(), scatter = Matrix4d::Zero();
+    Matrix4d normal = prior.asDiagonal(), scatter = prior.asDiagonal();
     Vector4d right = Vector4d::Zero();
     for (const DistalPoint& at : distal) {
       const double distance_px = round == 0 ? 0 : at.across_px - cubic.dot(at.row);
@@ -174,7 +182,7 @@ Offset OffsetAtPlace(const std::vector<DistalPoint>& distal) {
     const auto solver = normal.ldlt();
     cubic = solver.solve(right);
     const Vector4d gain = solver.solve(Vector4d(Vector4d::UnitX()));
-    offset = {cubic[0], gain.dot(scatter * gain)};
+    offset = {cubic[0], std::sqrt(gain.dot(scatter * gain) * together)};
   }
   return offset;
 }
@@ -210,23 +218,25 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
 }
 
 std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
-                                             double correlation_px,
+                                             const CourseDoubt& doubt,
                                              const Vector2d& place_px) {
   constexpr double kWidestGap = 0.15;  // of the way to the place, that a cubic may bridge
   constexpr size_t kFewest = 20;
   if (points.empty()) return std::nullopt;
   const Vector2d along = place_px - points.front().point_px;
-  const Vector2d across = Vector2d(-along.y(), along.x()).normalized();
-  const std::vector<DistalPoint> distal = DistalPoints(points, along, across);
+  const double way_px = along.norm();
+  const Vector2d across = Vector2d(-along.y(), along.x()) / way_px;
+  const std::vector<DistalPoint> distal = DistalPoints(points, along, across, 0);
   if (distal.size() < kFewest) return std::nullopt;
-  const Offset offset = OffsetAtPlace(distal);
-  const double first = distal.front().row[1], last = distal.back().row[1];
-  const double seen_px = (last - first) * along.norm();
-  const double together =
-      std::max(1.0, correlation_px * static_cast<double>(distal.size()) / std::max(1.0, seen_px));
-  const bool bridged = last > -kWidestGap;
+  const Offset offset = OffsetAtPlace(distal, way_px, doubt.correlation_px);
+  const std::vector<DistalPoint> clear =
+      DistalPoints(points, along, across, -doubt.smeared_px / way_px);
+  const double moved_px = clear.size() < kFewest
+                              ? 0
+                              : offset.px - OffsetAtPlace(clear, way_px, doubt.correlation_px).px;
+  const bool bridged = distal.back().row[1] > -kWidestGap;
   return PlaceOnCourse{place_px + (bridged ? offset.px : 0) * across,
-                       std::sqrt(offset.variance_px2 * together)};
+                       std::hypot(offset.sigma_px, moved_px)};
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

@@ -38,13 +38,18 @@ struct PlaceOnCourse {
   double across_sigma_px = 0;
 };
 
+struct CourseDoubt {
+  double correlation_px = 0;  // errors of points nearer to each other go together
+  double smeared_px = 0;      // so near to the place, the tip may have bent the edge
+};
+
 // The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the cubic
-// that its inlying points follow over the distal three quarters up to there; errors of points
-// nearer than `correlation_px` go together. Where they end far before, the place itself, as
-// uncertain as the cubic is there. std::nullopt for fewer than 20 such points.
+// that its inlying points follow over the distal three fifths up to there; as uncertain, too, as
+// the points that the tip cannot have bent would put it elsewhere. Where the points end far before,
+// the place itself, as uncertain as the cubic is there. std::nullopt for fewer than 20 such points.
 [[nodiscard]] std::optional<PlaceOnCourse> AbreastOnCourse(
     const std::vector<LocatedEdgePoint>& points,
-    double correlation_px,
+    const CourseDoubt& doubt,
     const Eigen::Vector2d& place_px);
 
 }  // namespace bladecurve

@@ -89,7 +89,9 @@ void KeepFree(const Scene& scene, LocatedBlade* blade) {
 
 void PlaceEndOnCourse(LocatedBlade* blade) {
   const std::optional<PlaceOnCourse> place =
-      AbreastOnCourse(blade->edge.points, blade->edge.correlation_px, blade->end.point_px);
+      AbreastOnCourse(blade->edge.points,
+                      {blade->edge.correlation_px, SmearedByTip(InlierPoints(blade->edge))},
+                      blade->end.point_px);
   if (!place) return;
   blade->end.point_px = place->point_px;
   blade->end.across_sigma_px = place->across_sigma_px;
