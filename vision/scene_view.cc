@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/block_means.h"
+#include "vision/lab_colour.h"
 
 namespace bladecurve {
 namespace {
@@ -106,10 +107,8 @@ ScaledImage SmallGrey(const SceneView& view, int longest) {
 ColourPictures SmallColour(const SceneView& view, int longest) {
   ColourPictures colour;
   colour.bgr = SmallBgr(view, longest);
-  cv::Mat lab;
-  colour.bgr.convertTo(lab, CV_32FC3, 1.0 / 255);
-  cv::cvtColor(lab, lab, cv::COLOR_BGR2Lab);
-  colour.lab = std::make_shared<const ScaledImage>(ScaledImage{lab, view.window});
+  colour.lab =
+      std::make_shared<const ScaledImage>(ScaledImage{LabFromBgr(colour.bgr), view.window});
   colour.ignore = view.MarkerMask(*colour.lab);
   return colour;
 }
