@@ -8,6 +8,7 @@
 
 #include "vision/marker_fit.h"
 #include "vision/marker_model.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -74,13 +75,12 @@ std::vector<SeenMarker> FindAtReduction(const cv::Mat& grey, const ToneCurve& to
   const Vector2d factor(static_cast<double>(grey.cols) / small.cols,
                         static_cast<double>(grey.rows) / small.rows);
   const Vector2d half(0.5, 0.5);
-  std::vector<SeenMarker> markers;
-  for (RoughMarker rough : DetectMarkers(small)) {
+  const std::vector<RoughMarker> detected = DetectMarkers(small);
+  return ParallelMap(static_cast<int>(detected.size()), [&](int i) {
+    RoughMarker rough = detected[static_cast<size_t>(i)];
     for (Vector2d& corner : rough.corners_px) corner = (corner + half).cwiseProduct(factor) - half;
-    markers.push_back(
-        LocateMarkerCorners(grey, tone, rough, {1.5 * factor.maxCoeff() + 1, std::nullopt}));
-  }
-  return markers;
+    return LocateMarkerCorners(grey, tone, rough, {1.5 * factor.maxCoeff() + 1, std::nullopt});
+  });
 }
 
 bool AnyLocated(const std::vector<SeenMarker>& markers) {
@@ -94,11 +94,12 @@ std::optional<SquareSides> LocateSides(const cv::Mat& grey,
                                        const ToneCurve& tone,
                                        const Corners& corners_px,
                                        const MarkerCornerOptions& options) {
+  const auto located = ParallelMap(
+      4, [&](int k) { return LocateStraightEdge(grey, tone, MarkerSide(corners_px, k, options)); });
   SquareSides sides;
-  for (int k = 0; k < 4; ++k) {
-    const auto side = LocateStraightEdge(grey, tone, MarkerSide(corners_px, k, options));
-    if (!side) return std::nullopt;
-    sides[static_cast<size_t>(k)] = *side;
+  for (size_t k = 0; k < 4; ++k) {
+    if (!located[k]) return std::nullopt;
+    sides[k] = *located[k];
   }
   return LooksPrinted(sides) ? std::optional(sides) : std::nullopt;
 }
@@ -180,14 +181,11 @@ std::vector<SeenMarker> RelocateMarkers(const cv::Mat& grey,
                                         const std::vector<SeenMarker>& markers,
                                         const std::optional<Camera>& camera) {
   constexpr double kNearPx = 1;  // corners located once are that good whatever the tone curve
-  std::vector<SeenMarker> again;
-  for (const SeenMarker& marker : markers) {
-    const bool located = std::isfinite(marker.corner_sigma_px);
-    again.push_back(
-        located ? LocateMarkerCorners(grey, tone, {marker.id, marker.corners_px}, {kNearPx, camera})
-                : marker);
-  }
-  return again;
+  return ParallelMap(static_cast<int>(markers.size()), [&](int i) {
+    const SeenMarker& marker = markers[static_cast<size_t>(i)];
+    if (!std::isfinite(marker.corner_sigma_px)) return marker;
+    return LocateMarkerCorners(grey, tone, {marker.id, marker.corners_px}, {kNearPx, camera});
+  });
 }
 
 }  // namespace bladecurve
