@@ -63,6 +63,7 @@ Json MeasureInstrument(const fs::path& out,
     AnalysisSettings settings =
         SettingsFromFlags(FlagsFromArguments(ArgumentsFor(plan, instrument)));
     settings.num_threads = 1;  // instruments run beside each other, not the photographs of one
+    settings.measure.keep_photo = overlays;
     const Analysis analysis = AnalyzeScissors(instrument.photos, settings);
     WriteResults(out, instrument.name, analysis, overlays);
     return MeasuredRow(identity, analysis);

@@ -45,6 +45,12 @@ std::string OutputName(const FitCommand& command) {
   return ends ? command.name.substr(0, command.name.size() - ending.size()) : command.name;
 }
 
+bool WritesFiles(const FitCommand& command) { return command.json != "-" || !command.name.empty(); }
+
+bool DrawsOverlays(const FitCommand& command) {
+  return WritesFiles(command) || !command.overlay.empty();
+}
+
 // Impossible wishes are refused before any work is done.
 void RequirePossible(const FitCommand& command) {
   if (!command.json.empty() && command.json != "-") {
@@ -86,19 +92,17 @@ void Deliver(const FitCommand& command, const Analysis& analysis) {
   const std::string name = OutputName(command);
   const std::string record =
       BladeRecordText(analysis, {fs::path(name).filename().string(), !command.no_times});
-  const bool to_stdout = command.json == "-";
-  const bool to_files = !to_stdout || !command.name.empty();
   std::vector<fs::path> written;
-  if (to_files) {
+  if (WritesFiles(command)) {
     written.emplace_back(name + ".blade.json");
     WriteFileWhole(written.back(), record);
   }
-  if (to_files || !command.overlay.empty()) {
+  if (DrawsOverlays(command)) {
     const std::vector<fs::path> overlays = OverlayPaths(command, name);
     WriteOverlays(analysis, overlays);
     written.insert(written.end(), overlays.begin(), overlays.end());
   }
-  if (to_stdout) {
+  if (command.json == "-") {
     std::cout << record;
   } else if (!command.quiet) {
     Report(command, analysis, written);
@@ -107,7 +111,8 @@ void Deliver(const FitCommand& command, const Analysis& analysis) {
 
 int RunFit(const FitCommand& command) {
   RequirePossible(command);
-  const AnalysisSettings settings = SettingsFromFlags(command.analysis);
+  AnalysisSettings settings = SettingsFromFlags(command.analysis);
+  settings.measure.keep_photo = DrawsOverlays(command);
   const std::vector<fs::path> photos(command.photos.begin(), command.photos.end());
   try {
     Deliver(command, AnalyzeScissors(photos, settings));

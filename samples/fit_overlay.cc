@@ -30,7 +30,8 @@ cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index) {
   overlay.unit = photo.scale_source == kPixelsSource ? "px" : "mm";
   overlay.title = StatusLine(analysis, std::filesystem::path(photo.file).filename().string());
   overlay.doubtful = Status(analysis) != "ok";
-  return DrawOverlay(Photo::Load(photo.file), overlay);
+  return photo.photo ? DrawOverlay(*photo.photo, overlay)
+                     : DrawOverlay(Photo::Load(photo.file), overlay);
 }
 
 }  // namespace bladecurve

@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "vision/blade_frame.h"
 #include "vision/consistency.h"
@@ -238,7 +240,7 @@ void FillTheta(const Opening& opening,
 
 PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOptions& options) {
   StageLog log(options.debug_dir);
-  const Photo photo = Photo::Load(path);
+  Photo photo = Photo::Load(path);
   log.Ran("decode", "grey");
   const ScaleResult scale = FindScale(photo, options.scale);
   log.Ran("scale", scale.map ? scale.map->source() : "waits for the blades: --length-mm");
@@ -282,6 +284,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();
+  if (options.keep_photo) result.photo = std::make_shared<const Photo>(std::move(photo));
   return result;
 }
 

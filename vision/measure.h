@@ -6,11 +6,13 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "vision/edge_points.h"
+#include "vision/photo.h"
 #include "vision/scale.h"
 #include "vision/stage_log.h"
 
@@ -31,6 +33,7 @@ struct MeasureOptions {
   ScaleOptions scale;
   SceneHints hints;
   bool full_plan = false;                          // --plan full: run every stage, needed or not
+  bool keep_photo = false;                         // for pictures of the result
   std::optional<std::filesystem::path> debug_dir;  // pictures of every stage
 };
 
@@ -53,7 +56,8 @@ struct PhotoMeasurement {
   std::vector<std::string> warnings;  // each makes the result `review`
   std::vector<StageRecord> plan;
   double ms_total = 0;
-  EdgePoints edges;  // the same in mm, for the curve fit
+  EdgePoints edges;                    // the same in mm, for the curve fit
+  std::shared_ptr<const Photo> photo;  // if it was to be kept
 };
 
 // decode -> scale -> scene -> pivot -> edges -> pose. Throws Refused.

@@ -5,11 +5,13 @@
 #include <libdeflate.h>
 #include <png.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <memory>
 #include <new>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
 
@@ -40,23 +42,28 @@ struct PngWriter {
   PngWriter& operator=(const PngWriter&) = delete;
 };
 
-// Rows as a PNG holds them before compression, colours as RGB: each a byte for its filter, then its
-// differences from the row above; to choose among all filters would take longer.
+cv::Mat InRgb(const cv::Mat& image) {
+  if (image.channels() == 1) return image;
+  cv::Mat rgb;
+  cv::cvtColor(image, rgb, cv::COLOR_BGR2RGB);
+  return rgb;
+}
+
+// Rows as a PNG holds them before compression: each a byte for its filter, then its differences
+// from the row above; to choose among all filters would take longer.
 std::vector<uchar> FilteredRows(const cv::Mat& image) {
-  const int channels = image.channels(), width = image.cols * channels;
-  const std::size_t stride = 1 + static_cast<std::size_t>(width);
-  std::vector<uchar> rows(stride * static_cast<std::size_t>(image.rows));
-  const std::vector<uchar> black(static_cast<std::size_t>(width));
+  const auto width = static_cast<std::size_t>(image.cols * image.channels());
+  std::vector<uchar> rows((1 + width) * static_cast<std::size_t>(image.rows));
+  const std::vector<uchar> black(width);
   ParallelForBands(image.rows, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
-      const uchar* above = y > 0 ? image.ptr<uchar>(y - 1) : black.data();
-      const uchar* row = image.ptr<uchar>(y);
-      uchar* out = rows.data() + stride * static_cast<std::size_t>(y);
-      *out++ = PNG_FILTER_VALUE_UP;
-      for (int x = 0; x < width; x += channels) {
-        for (int c = channels - 1; c >= 0; --c)
-          *out++ = static_cast<uchar>(row[x + c] - above[x + c]);
-      }
+      const uchar* const above = y > 0 ? image.ptr<uchar>(y - 1) : black.data();
+      const uchar* const row = image.ptr<uchar>(y);
+      uchar* const out = rows.data() + (1 + width) * static_cast<std::size_t>(y);
+      out[0] = PNG_FILTER_VALUE_UP;
+      std::transform(row, row + width, above, out + 1, [](uchar value, uchar value_above) {
+        return static_cast<uchar>(value - value_above);
+      });
     }
   });
   return rows;
@@ -117,7 +124,7 @@ void WritePng(const std::filesystem::path& path, const cv::Mat& image, const Png
   if (!file)
     throw std::runtime_error("png: cannot write " + path.string() +
                              "; is the folder there and writable?");
-  const std::vector<uchar> packed = Compressed(FilteredRows(image));
+  const std::vector<uchar> packed = Compressed(FilteredRows(InRgb(image)));
   const PngWriter writer;
   if (!WriteChunks(writer, file.get(), image, packed, options.dpi) ||
       std::fflush(file.get()) != 0) {
