@@ -148,6 +148,13 @@ DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
 }
 
+// So many lines do not end on an arc by chance, nor do fewer on one that is as round as tips are.
+bool IsCertain(const TipCap& cap) {
+  constexpr int kMany = 12, kSome = 8;  // lines
+  constexpr double kRound = 0.15;       // px of scatter
+  return cap.seen >= kMany || (cap.seen >= kSome && cap.scatter_px < kRound);
+}
+
 // An arc elsewhere than at the presumed tip, where the step across the edge ends: grain or a shadow
 // may have been taken for metal, or a part of the blade for background.
 std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
@@ -169,8 +176,7 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
                           const std::vector<Vector2d>& edge,
                           const EndSearch& search) {
   constexpr std::size_t kFewest = 12;
-  constexpr double kClearArc = 2;     // px of scatter that is still a rounded end
-  constexpr int kCertainlySeen = 12;  // lines; so many do not end on an arc by chance
+  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
   if (edge.size() < kFewest) {
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, std::nullopt};
@@ -188,7 +194,7 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   // mirror the background.
   const bool beyond = (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
   const DistalEnd at_rival = EndAtSeenCap(edge, *rival);
-  if (beyond || rival->seen >= kCertainlySeen) return {at_rival, std::nullopt};
+  if (beyond || IsCertain(*rival)) return {at_rival, std::nullopt};
   return {EndWithoutCap(edge, search, step_end_px), at_rival};
 }
 
