@@ -87,11 +87,14 @@ std::vector<MarkerPixel> PixelsAtBorders(const cv::Mat& grey,
   constexpr double kSigmas = 2.5;
   constexpr double kBorders = 48;  // sides of cells; about half of them have ink on one side alone
   constexpr double kSure = 0.7;    // of the way to the next line: tilted, cells are not alike
+  constexpr int kMostRowsApart = 2;
   const double reach_px = kSigmas * model.total_blur_px(), reach = reach_px / frame.cell_px;
-  const double expected = kBorders * frame.cell_px * 2 * reach_px;
-  Thinning thinning(static_cast<double>(kMostPixels) / expected);
+  const double share = static_cast<double>(kMostPixels) / (kBorders * frame.cell_px * 2 * reach_px);
+  // Of large markers whole rows are left out, as long as several cross each border.
+  const int rows_apart = std::clamp(static_cast<int>(1 / share), 1, kMostRowsApart);
+  Thinning thinning(rows_apart * share);
   std::vector<MarkerPixel> pixels;
-  for (int y = box.y; y < box.y + box.height; ++y) {
+  for (int y = box.y; y < box.y + box.height; y += rows_apart) {
     for (int x = box.x; x < box.x + box.width; ++x) {
       const Vector2d place = frame.Place(Straightened(camera, Vector2d(x, y)));
       const Vector2d cells = model.InCells(place);
