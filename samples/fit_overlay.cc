@@ -3,6 +3,7 @@
 #include "samples/fit_overlay.h"
 
 #include <filesystem>
+#include <stdexcept>
 
 #include "samples/blade_record.h"
 #include "samples/fit_summary.h"
@@ -14,6 +15,7 @@ namespace bladecurve {
 
 cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index) {
   const PhotoMeasurement& photo = analysis.photos[index];
+  if (!photo.photo) throw std::invalid_argument("DrawFitOverlay: the photograph was not kept");
   const FittedPhoto fitted = ApplyPose(photo, analysis.fit.poses[index]);
   Overlay overlay;
   overlay.upper_edge_px = photo.upper_edge_px;
@@ -30,8 +32,7 @@ cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index) {
   overlay.unit = photo.scale_source == kPixelsSource ? "px" : "mm";
   overlay.title = StatusLine(analysis, std::filesystem::path(photo.file).filename().string());
   overlay.doubtful = Status(analysis) != "ok";
-  return photo.photo ? DrawOverlay(*photo.photo, overlay)
-                     : DrawOverlay(Photo::Load(photo.file), overlay);
+  return DrawOverlay(*photo.photo, overlay);
 }
 
 }  // namespace bladecurve

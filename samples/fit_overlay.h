@@ -10,7 +10,7 @@
 namespace bladecurve {
 
 // The picture that shows whether photograph `index` was understood; decodes it once more for its
-// colours.
+// colours. Throws std::invalid_argument if it was not kept (MeasureOptions::keep_photo).
 [[nodiscard]] cv::Mat DrawFitOverlay(const Analysis& analysis, std::size_t index);
 
 }  // namespace bladecurve
