@@ -181,7 +181,7 @@ std::optional<SurveyedBorder> BorderInNoise(const cv::Mat& grey,
                                             double search_px,
                                             const SurveyedBorder& usual) {
   constexpr double kClear =
-      8;  // times what noise does; such steps are followed rightly as they are
+      10;  // times what noise does; such steps are followed rightly as they are
   constexpr double kNearlyAll = 0.9;  // seen of a line that needs no help
   constexpr double kSigmaPx = 2;      // a blur of 2 px loses a third of its slope
   constexpr double kStandsOut = 2;    // times as far as before; texture gains less

@@ -69,6 +69,14 @@ LevelMatrix InverseOfPositive(const LevelMatrix& matrix) {
   return inverse.transpose().lazyProduct(inverse);
 }
 
+// What the sum of the squares of `count` standard normal numbers exceeds once in 200 times (Wilson
+// and Hilferty 1931; within 1 % from 3 numbers on).
+double ChiSquareOnceIn200(double count) {
+  constexpr double kSigmas = 2.576;
+  const double variance = 2 / (9 * count);  // of the cube root of the mean square
+  return count * std::pow(1 - variance + kSigmas * std::sqrt(variance), 3);
+}
+
 }  // namespace
 
 LevelFit SolveLevels(const LevelMoments& moments, const LevelVector& precision) {
@@ -103,18 +111,22 @@ LevelFit SolveLevels(const LevelMoments& moments, const LevelVector& precision) 
 }
 
 LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap) {
+  constexpr double kCommonSigmas = 3;
   LevelVector precision = LevelVector::Zero();
   const auto count = static_cast<double>(fits.size());
+  const double most = overlap * ChiSquareOnceIn200(count / overlap);
+  const double most_common = overlap * kCommonSigmas * kCommonSigmas;
   for (const LevelTerm term : {kBladeSlope, kGroundSlope, kGroundBend}) {
-    double excess = 0, scatter = 0;
+    double scatter = 0, squares = 0;     // of the levels: their squares, and those in sigmas
+    double common = 0, information = 0;  // of their mean, weighted: its numerator and denominator
     for (const LevelFit& fit : fits) {
-      const double ratio =
-          fit.levels[term] * fit.levels[term] / std::max(fit.variances[term], 1e-30);
-      excess += ratio - 1;
-      scatter += fit.levels[term] * fit.levels[term];
+      const double level = fit.levels[term], variance = std::max(fit.variances[term], 1e-30);
+      scatter += level * level;
+      squares += level * level / variance;
+      common += level / variance;
+      information += 1 / variance;
     }
-    // Without slopes `excess` is 0 with standard deviation sqrt(2 count overlap).
-    const bool supported = excess > 3 * std::sqrt(2 * count * overlap);
+    const bool supported = squares > most || common * common > most_common * information;
     precision[term] = supported ? count / scatter : kFixed;
   }
   return precision;

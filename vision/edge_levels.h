@@ -67,8 +67,8 @@ inline constexpr double kFixed = 1e12;
 [[nodiscard]] LevelFit SolveLevels(const LevelMoments& moments, const LevelVector& precision);
 
 // Slopes that the data do not support cost most of the information about the offset. Returns for
-// each slope term the prior precision that the fits of many windows suggest: kFixed where they are
-// no larger than their own uncertainty. Each pixel lies in `overlap` windows.
+// each slope term the prior precision that the fits of many windows suggest: kFixed where neither
+// they nor their mean are larger than their own uncertainty. Each pixel lies in `overlap` windows.
 [[nodiscard]] LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap);
 
 // How far out of the blade, px, the windows see its inner transition from where it was taken: that
