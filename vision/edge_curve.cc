@@ -187,14 +187,18 @@ Offset OffsetAtPlace(const std::vector<DistalPoint>& distal, double way_px, doub
   return offset;
 }
 
+double DistanceFrom(const Vector2d& on_curve, const LocatedEdgePoint& point) {
+  return point.normal.dot(point.point_px - on_curve);
+}
+
 double PlaceOf(size_t i, size_t count) {
   return count > 1 ? 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1 : 0;
 }
 
 }  // namespace
 
-std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>& points) {
-  std::vector<double> distances(points.size(), 0.0);
+std::vector<Vector2d> PlainCurve(const std::vector<LocatedEdgePoint>& points) {
+  std::vector<Vector2d> curve(points.size());
   const size_t stride = 1 + points.size() / kEnough;
   std::vector<Terms> terms;
   for (size_t i = 0; i < points.size(); ++i)
@@ -203,17 +207,22 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
     Eigen::Matrix<double, kTerms, kTerms> normal = Eigen::Matrix<double, kTerms, kTerms>::Zero();
     Eigen::Matrix<double, kTerms, 2> right = Eigen::Matrix<double, kTerms, 2>::Zero();
     for (size_t i = 0; i < points.size(); i += stride) {
-      const double weight = WeightOf(points[i], distances[i]);
+      const double weight = WeightOf(points[i], round == 0 ? 0 : DistanceFrom(curve[i], points[i]));
       normal += weight * terms[i] * terms[i].transpose();
       right += weight * terms[i] * (points[i].point_px - points.front().point_px).transpose();
     }
     const Eigen::Matrix<double, kTerms, 2> coefficients = normal.ldlt().solve(right);
     const size_t wanted = round + 1 < kRounds ? stride : 1;
-    for (size_t i = 0; i < points.size(); i += wanted) {
-      const Vector2d on_curve = points.front().point_px + coefficients.transpose() * terms[i];
-      distances[i] = points[i].normal.dot(points[i].point_px - on_curve);
-    }
+    for (size_t i = 0; i < points.size(); i += wanted)
+      curve[i] = points.front().point_px + coefficients.transpose() * terms[i];
   }
+  return curve;
+}
+
+std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>& points) {
+  const std::vector<Vector2d> curve = PlainCurve(points);
+  std::vector<double> distances;
+  for (size_t i = 0; i < points.size(); ++i) distances.push_back(DistanceFrom(curve[i], points[i]));
   return distances;
 }
 

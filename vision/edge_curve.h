@@ -10,9 +10,12 @@
 
 namespace bladecurve {
 
-// Distance of each point, along its normal, from the low-order curve that most of the points
-// follow. A cutting edge is such a curve from crotch to distal end; what leaves it at the ends is
-// the other blade or the rounding of the tip.
+// The low-order curve that most of the points follow, abreast of each of them. A cutting edge is
+// such a curve from crotch to distal end; what leaves it at the ends is the other blade or the
+// rounding of the tip.
+[[nodiscard]] std::vector<Eigen::Vector2d> PlainCurve(const std::vector<LocatedEdgePoint>& points);
+
+// Distance of each point from it, along the point's normal.
 [[nodiscard]] std::vector<double> DistancesFromPlainCurve(
     const std::vector<LocatedEdgePoint>& points);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vision/edge_colour.h"
+#include "vision/edge_curve.h"
 #include "vision/edge_shadow.h"
 #include "vision/parallel.h"
 #include "vision/refused.h"
@@ -98,6 +99,18 @@ double MostBlur(const std::vector<SeenMarker>& markers) {
   return blurs.empty() ? EdgeOptions{}.most_blur_px : Median(std::move(blurs));
 }
 
+double InlyingShare(const LocatedEdge& edge) {
+  const auto inlying = std::count_if(edge.points.begin(),
+                                     edge.points.end(),
+                                     [](const LocatedEdgePoint& point) { return point.inlier; });
+  return static_cast<double>(inlying) / static_cast<double>(edge.points.size());
+}
+
+// What the edge's points tell about where it runs, for comparison with another along it.
+double Information(const LocatedEdge& edge) {
+  return InlyingShare(edge) / std::pow(TotalSigma(edge), 2);
+}
+
 std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   std::vector<Vector2d> path;
   for (const LocatedEdgePoint& point : edge.points) path.push_back(point.trend_px);
@@ -135,6 +148,7 @@ class BladeLocator {
   [[nodiscard]] LocatedEdge Locate(bool left) {
     LocatedEdge edge = InGreyOr(InViewOrHalved, GuessFor(scene_, left));
     if (IsShadowsBorder(edge, options_.most_blur_px)) edge = LeaveSoftShadow(std::move(edge), left);
+    edge = AlongItsCurve(std::move(edge), left);
     return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
   }
 
@@ -206,6 +220,19 @@ class BladeLocator {
     const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
     if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) return std::nullopt;
     return look(view, guess);
+  }
+
+  // Where much of an edge strays, the guess led the look astray: once more, along the curve that
+  // most of the edge follows, if that tells more.
+  [[nodiscard]] LocatedEdge AlongItsCurve(LocatedEdge edge, bool left) {
+    constexpr double kStray = 0.1;   // of the points
+    constexpr double kSearchPx = 3;  // the curve's own error, where it had to be continued
+    if (InlyingShare(edge) > 1 - kStray) return edge;
+    EdgeGuess guess = GuessFor(scene_, left);
+    guess.path_px = PlainCurve(edge.points);
+    guess.search_px = kSearchPx;
+    const auto again = UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
+    return again && Information(*again) > Information(edge) ? *again : edge;
   }
 
   // From a soft shadow's border to where the shadow begins, if that is seen.

@@ -57,6 +57,27 @@ TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
   }
 }
 
+// Scene finding may take a piece of the background for blade: its trace has a notch then.
+TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
+  constexpr double kClosePx = 0.3, kNotchPx = 10;
+  const SceneSpec spec = testing::SceneWithMarkers();
+  const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
+  ScaleOptions options;
+  options.mm_per_px = spec.camera.mm_per_px;
+  const ScaleResult scale = FindScale(photo, options);
+  StageLog log;
+  Scene scene = FindScene(photo, scale.markers, {}, &log);
+  std::vector<Eigen::Vector2d>& trace = scene.left.inner_px;
+  const Eigen::Vector2d along = (trace.back() - trace.front()).normalized();
+  for (size_t i = trace.size() * 6 / 10; i < trace.size() * 8 / 10; ++i)
+    trace[i] += kNotchPx * Eigen::Vector2d(along.y(), -along.x());
+  const LocatedEdge edge = LocateBlades(photo, scale, scene, kUpperOnLeft).upper;
+  size_t inlying = 0;
+  for (const LocatedEdgePoint& point : edge.points) inlying += point.inlier;
+  EXPECT_GT(inlying, 0.95 * edge.points.size());
+  EXPECT_LT(FarFrom(TruthOf(spec).upper, edge.points), kClosePx);
+}
+
 // A soft shadow that begins at the edge looks like blur on both sides where the edge is faint.
 TEST(LocateBlades, TakesNoShadowForBlurThatPrintAndTheOtherBladeDoNotShow) {
   constexpr double kSofter = 1.1;   // times the print's blur
