@@ -111,7 +111,7 @@ LevelFit SolveLevels(const LevelMoments& moments, const LevelVector& precision) 
 }
 
 LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap) {
-  constexpr double kCommonSigmas = 3;
+  constexpr double kCommonSigmas = 3.5;
   LevelVector precision = LevelVector::Zero();
   const auto count = static_cast<double>(fits.size());
   const double most = overlap * ChiSquareOnceIn200(count / overlap);
