@@ -69,12 +69,30 @@ LevelMatrix InverseOfPositive(const LevelMatrix& matrix) {
   return inverse.transpose().lazyProduct(inverse);
 }
 
-// What the sum of the squares of `count` standard normal numbers exceeds once in 200 times (Wilson
-// and Hilferty 1931; within 1 % from 3 numbers on).
-double ChiSquareOnceIn200(double count) {
-  constexpr double kSigmas = 2.576;
+// What the mean square of `count` standard normal numbers exceeds as rarely as one of them exceeds
+// three (Wilson and Hilferty 1931).
+double MeanSquareBeyond3Sigma(double count) {
+  constexpr double kSigmas = 3;
   const double variance = 2 / (9 * count);  // of the cube root of the mean square
-  return count * std::pow(1 - variance + kSigmas * std::sqrt(variance), 3);
+  return std::pow(1 - variance + kSigmas * std::sqrt(variance), 3);
+}
+
+// What noise alone does in windows that share pixels: neighbours correlate the less the further
+// apart they are.
+struct SharedNoise {
+  double independent = 0;  // windows would have as certain a mean square (Satterthwaite 1946)
+  double alike = 0;        // windows count as one in a mean
+};
+
+SharedNoise NoiseOf(size_t windows, double overlap) {
+  double sum = 0, squares = 0;  // of the correlations of all pairs
+  const auto count = static_cast<double>(windows);
+  for (double apart = 0; apart < std::min(count, overlap); ++apart) {
+    const double pairs = (apart == 0 ? 1 : 2) * (count - apart), correlation = 1 - apart / overlap;
+    sum += pairs * correlation;
+    squares += pairs * correlation * correlation;
+  }
+  return {count * count / squares, sum / count};
 }
 
 }  // namespace
@@ -114,8 +132,9 @@ LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap) {
   constexpr double kCommonSigmas = 3.5;
   LevelVector precision = LevelVector::Zero();
   const auto count = static_cast<double>(fits.size());
-  const double most = overlap * ChiSquareOnceIn200(count / overlap);
-  const double most_common = overlap * kCommonSigmas * kCommonSigmas;
+  const SharedNoise noise = NoiseOf(fits.size(), overlap);
+  const double most = MeanSquareBeyond3Sigma(noise.independent);
+  const double most_common = noise.alike * kCommonSigmas * kCommonSigmas;
   for (const LevelTerm term : {kBladeSlope, kGroundSlope, kGroundBend}) {
     double scatter = 0, squares = 0;     // of the levels: their squares, and those in sigmas
     double common = 0, information = 0;  // of their mean, weighted: its numerator and denominator
@@ -126,7 +145,7 @@ LevelVector SlopePrecision(const std::vector<LevelFit>& fits, double overlap) {
       common += level / variance;
       information += 1 / variance;
     }
-    const bool supported = squares > most || common * common > most_common * information;
+    const bool supported = squares > most * count || common * common > most_common * information;
     precision[term] = supported ? count / scatter : kFixed;
   }
   return precision;
