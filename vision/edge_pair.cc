@@ -228,22 +228,19 @@ class BladeLocator {
     constexpr double kStray = 0.1;   // of the points
     constexpr double kSearchPx = 3;  // the curve's own error, where it had to be continued
     if (InlyingShare(edge) > 1 - kStray) return edge;
-    EdgeGuess guess = GuessFor(scene_, left);
-    guess.path_px = PlainCurve(edge.points);
-    guess.search_px = kSearchPx;
-    const auto again = UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
-    return again && Information(*again) > Information(edge) ? *again : edge;
+    const EdgeGuess guess{PlainCurve(edge.points), left, kSearchPx};
+    auto again = UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
+    if (again && Information(*again) > Information(edge)) return *std::move(again);
+    return edge;
   }
 
   // From a soft shadow's border to where the shadow begins, if that is seen.
   [[nodiscard]] LocatedEdge LeaveSoftShadow(LocatedEdge edge, bool left) const {
     constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty
     const double farthest = kFarthest * edge.common_sigma_px;
-    EdgeGuess guess = GuessFor(scene_, left);
-    guess.path_px.clear();
+    EdgeGuess guess{{}, left, 0.5 * (farthest - kNearest)};
     for (const LocatedEdgePoint& p : edge.points)
       guess.path_px.push_back(p.trend_px - 0.5 * (kNearest + farthest) * p.normal);
-    guess.search_px = 0.5 * (farthest - kNearest);
     return InShadow(guess).value_or(std::move(edge));
   }
 
@@ -252,9 +249,8 @@ class BladeLocator {
                                                      const LocatedEdge& edge,
                                                      bool left) const {
     constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
-    EdgeGuess guess = GuessFor(scene_, left);
-    guess.path_px = std::move(side_px);
-    guess.search_px = std::max(kLeast, kReach * std::abs(edge.rival_px));
+    const EdgeGuess guess{
+        std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))};
     return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, guess, options_); });
   }
 
