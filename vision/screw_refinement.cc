@@ -11,6 +11,7 @@
 
 #include "vision/parallel.h"
 #include "vision/screw_field.h"
+#include "vision/screw_ground.h"
 #include "vision/screw_profiles.h"
 #include "vision/screw_search.h"
 
@@ -149,6 +150,20 @@ bool Gains(const RimFit& in_grain, const RimFit& plain) {
          apart.dot(plain.center_covariance.inverse() * apart) < kSame;
 }
 
+// Makes the ground about the head even and fits there anew; the light as it was if that fails. Of a
+// head lit from one side the rim has not the same blur all round, and what is taken for uneven
+// ground is partly its own.
+cv::Mat EvenOut(const cv::Mat& light, RefinedRim& refined) {
+  RimFitOptions options = refined.options;
+  options.iterations = 4;  // it starts where the other ended
+  cv::Mat even = WithEvenGround(light, refined.fit.rim);
+  std::optional<RimFit> fit = FitRim(even, refined.fit.rim, options);
+  if (!fit || !SameRim(fit->rim, refined.fit.rim)) return light;
+  fit->one_sided = refined.fit.one_sided;
+  refined.fit = *fit;
+  return even;
+}
+
 // The fit in the grain of the metal if that gains.
 std::optional<RimFit> FitInGrain(const cv::Mat& light, const RefinedRim& refined) {
   RimFitOptions options = refined.options;
@@ -227,9 +242,9 @@ RimFit RefineRim(const cv::Mat& grey,
   const RimEllipse start = judged.rim.Into(light.origin, 1);
   std::optional<RefinedRim> refined = FitLight(light.grey, start, view);
   if (!refined) return MoreDoubtful(judged, UnevenVariance(judged, judged.rim.MeanRadius()));
+  const cv::Mat even = LitFromOneSide(refined->fit) ? light.grey : EvenOut(light.grey, *refined);
   const auto instead = ParallelMap(2, [&](int i) {
-    return i == 0 ? LeaveOutOddThird(light.grey, start, *refined)
-                  : FitInGrain(light.grey, *refined);
+    return i == 0 ? LeaveOutOddThird(even, start, *refined) : FitInGrain(even, *refined);
   });
   RimFit fit = instead[0].value_or(instead[1].value_or(refined->fit));
   fit.rim = fit.rim.OutOf(light.origin, 1);
