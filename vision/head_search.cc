@@ -24,6 +24,14 @@ double Credence(const Screw& screw) {
   return screw.evidence - 0.5 * sigmas * sigmas;
 }
 
+// The narrower of the shank and what shanks are at most beside such blades: where the silhouette
+// fills a gap beside the shank, it looks far too wide.
+double LeastShankWidth(const Scene& scene) {
+  constexpr double kOfBlades = 2.2;
+  return std::min(scene.shank_width_px,
+                  kOfBlades * 0.5 * (scene.left.width_px + scene.right.width_px));
+}
+
 // Heads of screws and rivets are a quarter to four fifths of the shank wide; engraved marks are
 // smaller, and what is as wide as the shank is mostly its own outline.
 ScrewSearch SearchForHead(const ScaleResult& scale,
@@ -32,7 +40,7 @@ ScrewSearch SearchForHead(const ScaleResult& scale,
                           double radius_px) {
   ScrewSearch search;
   if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
-  search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
+  search.min_semi_axis_px = std::max(3.0, 0.13 * LeastShankWidth(scene));
   search.max_semi_axis_px = std::max(4.0, 0.4 * scene.shank_width_px);
   search.guess_px = guess_px;
   search.radius_px = radius_px;
