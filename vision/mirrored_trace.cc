@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vision/bilinear.h"
+#include "vision/consistency.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -118,6 +119,15 @@ VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& p
   return profile;
 }
 
+// Whether near its end a trace lies further outwards of the inner edge than the two edges differ
+// by. A bevel's line nears the border towards the tip.
+bool LeavesEnd(const Trace& trace, const LocatedBlade& inner, double difference_px) {
+  constexpr double kMost = 1.5, kNearestPx = 2;  // of the difference
+  const Part last = PartOf(trace.size(), kParts - 1);
+  const Vector2d middle = trace[(last.first + last.end) / 2].trend_px;
+  return OutsideBy(inner, middle) > kMost * difference_px + kNearestPx;
+}
+
 // What speaks for a trace as a whole.
 struct Support {
   double log_odds = 0;
@@ -185,8 +195,11 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
                                                const MirrorLine& line,
                                                double difference_px) {
   constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
-  constexpr double kLeastOdds = 8, kClearly = 2;       // times the next best
-  constexpr int kLeastParts = 4;
+  constexpr double kClearly = 2;                       // times the next best
+  // An edge that is clear by itself is left for a line that nearly all of the blade shows.
+  const bool clear = IsClear(inner.edge);
+  const double least_odds = clear ? 16 : 8;
+  const int least_parts = clear ? 7 : 4;
   constexpr double kUsualBlurPx = 0.8;
   const double blur_px = std::isfinite(other.edge.blur_px) ? other.edge.blur_px : kUsualBlurPx;
   const StepTest test(std::hypot(blur_px, 0.3));  // and the pixel's box
@@ -197,12 +210,16 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
     return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
   };
   std::vector<Support> supports;
-  for (int step = -farthest; step <= farthest; ++step)
-    supports.push_back(SupportOf(view, MirroredEdge(other, turned(step)), inner, other, test));
+  for (int step = -farthest; step <= farthest; ++step) {
+    const Trace trace = MirroredEdge(other, turned(step));
+    supports.push_back(LeavesEnd(trace, inner, difference_px)
+                           ? Support{}
+                           : SupportOf(view, trace, inner, other, test));
+  }
   const auto best = std::max_element(
       supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
-  const double least = std::max(kLeastOdds, kClearly * NextBest(supports, best - supports.begin()));
-  if (best->log_odds < least || best->parts < kLeastParts) return std::nullopt;
+  const double least = std::max(least_odds, kClearly * NextBest(supports, best - supports.begin()));
+  if (best->log_odds < least || best->parts < least_parts) return std::nullopt;
   const Peak peak = PeakAbout(supports, best - supports.begin());
   // Halfway along the blade the trace moves half as far as its end.
   return MirroredTrace{turned(peak.place - farthest), 0.5 * kStepPx * peak.sigma};
