@@ -151,6 +151,15 @@ double TotalSigma(const LocatedEdge& edge) {
   return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
 }
 
+double LongestStray(const LocatedEdge& edge) {
+  std::size_t stray = 0, longest = 0;
+  for (const LocatedEdgePoint& point : edge.points) {
+    stray = point.inlier ? 0 : stray + 1;
+    longest = std::max(longest, stray);
+  }
+  return static_cast<double>(longest) / static_cast<double>(edge.points.size());
+}
+
 LocatedEdge LocateEdge(const cv::Mat& grey,
                        const ToneCurve& tone,
                        const EdgeGuess& guess,

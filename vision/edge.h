@@ -64,6 +64,9 @@ struct LocatedEdge {
 // The same with what they share counted.
 [[nodiscard]] double TotalSigma(const LocatedEdge& edge);
 
+// The longest stretch of points that do not count, as a share of the edge. Of an edge with points.
+[[nodiscard]] double LongestStray(const LocatedEdge& edge);
+
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw
 // pixels in a narrow band. Of several transitions (bevel line, glint, shadow border) it takes the
 // blade's outer border. Throws Refused{kLowContrast, kBlurred, kEdgeTooShort}.

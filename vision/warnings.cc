@@ -7,13 +7,23 @@
 #include "vision/consistency.h"
 
 namespace bladecurve {
+namespace {
+
+// Several transitions about as good, or one that changes to another line on the way: at its ends
+// other things may cover an edge, but seldom so much of it.
+bool IsAmbiguous(const LocatedEdge& edge) {
+  constexpr double kSeveralTransitions = 0.5, kOtherLine = 0.3;  // of the edge
+  return edge.ambiguity > kSeveralTransitions || LongestStray(edge) > kOtherLine;
+}
+
+}  // namespace
 
 std::vector<std::string> WarningsOf(const Scene& scene,
                                     const ScaleResult& scale,
                                     const PlaneMap& map,
                                     const Pivot& pivot,
                                     const Blades& blades) {
-  constexpr double kSeveralTransitions = 0.5, kVaguePx = 1;
+  constexpr double kVaguePx = 1;
   constexpr double kSlanted = 0.04;  // where nobody knows the tilt of the view
   std::vector<std::string> warnings = scene.warnings;
   warnings.insert(warnings.end(), map.warnings().begin(), map.warnings().end());
@@ -25,8 +35,8 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   warn_if(scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted,
           "blades_asymmetric");
   warn_if(blades.ends_contradict, "ends_unlike");
-  warn_if(blades.upper.edge.ambiguity > kSeveralTransitions, "upper_edge_ambiguous");
-  warn_if(blades.lower.edge.ambiguity > kSeveralTransitions, "lower_edge_ambiguous");
+  warn_if(IsAmbiguous(blades.upper.edge), "upper_edge_ambiguous");
+  warn_if(IsAmbiguous(blades.lower.edge), "lower_edge_ambiguous");
   warn_if(EdgeSigmaPx(blades.upper) > kVaguePx, "upper_edge_vague");
   return warnings;
 }

@@ -68,5 +68,21 @@ TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
   EXPECT_FALSE(Warns(measured, "blades_asymmetric"));
 }
 
+// A bevel may be as bright as the ground on part of the way; then another line goes on.
+TEST(WarningsOf, DoubtsAnEdgeThatALongStretchStraysFrom) {
+  Measured measured{SceneWithMarkers()};
+  measured.blades.upper.edge.ambiguity = 0;
+  std::vector<LocatedEdgePoint>& points = measured.blades.upper.edge.points;
+  const auto share = [&](double part) {
+    return static_cast<std::size_t>(part * static_cast<double>(points.size()));
+  };
+  for (std::size_t i = 0; i < share(0.25); ++i) points[i].inlier = false;
+  EXPECT_FALSE(Warns(measured, "upper_edge_ambiguous"));
+  for (std::size_t i = 0; i < share(0.35); ++i) points[i].inlier = false;
+  EXPECT_TRUE(Warns(measured, "upper_edge_ambiguous"));
+  for (std::size_t i = 0; i < share(0.35); i += 10) points[i].inlier = true;
+  EXPECT_FALSE(Warns(measured, "upper_edge_ambiguous")) << "here and there is no other line";
+}
+
 }  // namespace
 }  // namespace bladecurve
