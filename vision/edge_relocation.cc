@@ -226,6 +226,48 @@ void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* bla
     Replace(*found, kWhereMirrored, &doubtful);
 }
 
+// Edges that pass the pivot alike but are unlike in shape, as hardly any two blades: one of them
+// changes to another line on its way. From where the other one puts it, if it is seen there and the
+// two are alike then.
+std::optional<Relocated> LookForShape(const MirrorView& view,
+                                      const Pivot& pivot,
+                                      const Blades& blades,
+                                      bool upper,
+                                      double difference) {
+  constexpr double kSearchPx = 5, kLeft = 0.4;  // of the difference
+  Blades instead = blades;
+  const auto [blade, other] = OneOf(&instead, upper);
+  std::optional<Relocated> found =
+      Mirroring{view, pivot, other, LineBetween(view, pivot, blades)}.LookWithin(kSearchPx);
+  if (!found || !AreAlike(found->asymmetry)) return std::nullopt;
+  blade = found->blade;
+  if (ShapeDifference(view, pivot, instead) > kLeft * difference) return std::nullopt;
+  return found;
+}
+
+// Whether edges are unlike in shape, and if so, what can be done: the one that is seen where the
+// other puts it is taken from there; if that holds of neither, or of both, the vaguer one is
+// doubted by as much as they differ.
+bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kUnlike = 0.006;  // of the length; rendered ones differ by up to 0.003
+  constexpr double kDoubt = 0.75;    // ambiguity
+  const double difference = ShapeDifference(view, pivot, *blades);
+  if (difference < kUnlike) return false;
+  const auto upper = LookForShape(view, pivot, *blades, true, difference);
+  const auto lower = LookForShape(view, pivot, *blades, false, difference);
+  if (upper.has_value() != lower.has_value()) {
+    Replace(upper ? *upper : *lower, kWhereMirrored, upper ? &blades->upper : &blades->lower);
+    return true;
+  }
+  const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
+  LocatedEdge& vaguer = OneOf(blades, upper_vaguer).blade.edge;
+  vaguer.ambiguity = std::max(vaguer.ambiguity, kDoubt);
+  vaguer.common_sigma_px =
+      std::hypot(vaguer.common_sigma_px,
+                 difference * (blades->upper.end.point_px - pivot.point_px).norm());
+  return true;
+}
+
 // The blade along the inner side of a band beside its edge that may be a shadow, if it is seen.
 std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlade& blade) {
   std::optional<LocatedEdge> edge =
@@ -287,7 +329,7 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot.asymmetry)) {
     if (!LeaveBothShadows(view, pivot, blades)) RelocateClearerOne(view, pivot, blades);
-  } else {
+  } else if (!SettleShapes(view, pivot, blades)) {
     RelocateDoubtfulOne(view, pivot, blades);
   }
 }

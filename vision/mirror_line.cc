@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "vision/mirror_line.h"
 
+#include <cmath>
+#include <vector>
+
+#include "vision/cross.h"
+#include "vision/robust_statistics.h"
+
 namespace bladecurve {
 
 using Eigen::Vector2d;
@@ -54,6 +60,29 @@ MirrorLine LineBetweenEnds(const MirrorView& view, const Pivot& pivot, const Bla
     return (map.PlaneFromImage(blade.end.point_px) - origin).normalized();
   };
   return {map, origin, (direction(blades.upper) + direction(blades.lower)).normalized()};
+}
+
+double ShapeDifference(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+  constexpr double kMostOfIt = 0.8;
+  const MirrorLine line = LineBetween(view, pivot, blades);
+  std::vector<Vector2d> mirrored;  // from the pivot, ever further
+  for (const LocatedEdgePoint& p : blades.lower.used)
+    mirrored.push_back(line.Reflected(p.trend_px) - pivot.point_px);
+  std::vector<double> radius, aside, turn;
+  std::size_t next = 0;
+  for (const LocatedEdgePoint& p : blades.upper.used) {
+    const Vector2d ray = p.trend_px - pivot.point_px;
+    while (next < mirrored.size() && mirrored[next].norm() < ray.norm()) ++next;
+    if (next == 0 || next == mirrored.size()) continue;
+    radius.push_back(ray.norm());
+    aside.push_back(Cross(ray, mirrored[next]) / ray.norm());
+    turn.push_back(aside.back() / radius.back());
+  }
+  if (radius.empty()) return 0;
+  const double best_turn = Median(turn);
+  for (std::size_t i = 0; i < aside.size(); ++i)
+    aside[i] = std::abs(aside[i] - best_turn * radius[i]);
+  return SampleQuantile(aside, kMostOfIt) / radius.back();
 }
 
 }  // namespace bladecurve

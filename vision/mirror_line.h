@@ -56,4 +56,11 @@ struct MirrorView {
                                          const Pivot& pivot,
                                          const Blades& blades);
 
+// How far one edge lies from the other's mirror image, turned about the pivot as far as fits them
+// best: what all but a fifth of it keeps to, as a share of the blades' length. Where the mirror is
+// known. 0 if they have nothing in common to compare.
+[[nodiscard]] double ShapeDifference(const MirrorView& view,
+                                     const Pivot& pivot,
+                                     const Blades& blades);
+
 }  // namespace bladecurve

@@ -43,6 +43,51 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
   }
 }
 
+// As if another line had been followed from so far along the edge on to so far.
+void Bulge(Measured* measured, LocatedBlade* blade, double from, double to, double outwards_px) {
+  std::vector<LocatedEdgePoint>& points = blade->edge.points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(points.size());
+    if (share < from || share > to) continue;
+    const Vector2d shift =
+        outwards_px * std::sin(std::numbers::pi * (share - from) / (to - from)) * points[i].normal;
+    points[i].point_px += shift;
+    points[i].trend_px += shift;
+  }
+  KeepFree(measured->scene, blade);
+  measured->Compare();
+}
+
+TEST(RelocateUnlikeEdges, FindsTheEdgeThatPassesThePivotAlikeButIsUnlikeInShape) {
+  constexpr double kBulgePx = 16, kClosePx = 0.3;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& unlike = upper ? measured.blades.upper : measured.blades.lower;
+    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    Bulge(&measured, &unlike, 0.65, 1, kBulgePx);
+    ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry)) << upper;
+    Relocate(&measured);
+    EXPECT_LT(FarFrom(truth, unlike.used), kClosePx) << upper;
+    EXPECT_EQ((upper ? measured.blades.lower : measured.blades.upper).moved, "");
+  }
+}
+
+// Neither edge is what the other one's mirror image is.
+TEST(RelocateUnlikeEdges, DoubtsTheVaguerOfEdgesOfUnlikeShapeByAsMuchAsTheyDiffer) {
+  constexpr double kBulgePx = 16, kVaguePx = 0.4;
+  Measured measured{SceneWithMarkers()};
+  measured.MakeClear(&measured.blades.upper);
+  measured.MakeClear(&measured.blades.lower);
+  measured.blades.lower.edge.common_sigma_px = kVaguePx;
+  Bulge(&measured, &measured.blades.upper, 0.65, 1, kBulgePx);
+  Bulge(&measured, &measured.blades.lower, 0.65, 1, -kBulgePx);
+  ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry));
+  Relocate(&measured);
+  EXPECT_GT(measured.blades.lower.edge.ambiguity, 0.7);
+  EXPECT_GT(measured.blades.lower.edge.common_sigma_px, kBulgePx / 2);
+  EXPECT_LT(measured.blades.upper.edge.ambiguity, 0.5);
+}
+
 // About a pivot so far forward that the edges hardly pass by it, the misplaced one stays.
 TEST(RelocateUnlikeEdges, TakesNoEdgeToWhereItWouldHardlyPassByThePivot) {
   constexpr double kAsidePx = 16, kHardly = 0.04;
