@@ -226,9 +226,8 @@ void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* bla
     Replace(*found, kWhereMirrored, &doubtful);
 }
 
-// Edges that pass the pivot alike but are unlike in shape, as hardly any two blades: one of them
-// changes to another line on its way. From where the other one puts it, if it is seen there and the
-// two are alike then.
+// One of two edges that pass the pivot alike but are unlike in shape, as those of hardly any blades
+// are: where the other one puts it, if it is seen there and the two are alike then.
 std::optional<Relocated> LookForShape(const MirrorView& view,
                                       const Pivot& pivot,
                                       const Blades& blades,
@@ -262,9 +261,8 @@ bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
   LocatedEdge& vaguer = OneOf(blades, upper_vaguer).blade.edge;
   vaguer.ambiguity = std::max(vaguer.ambiguity, kDoubt);
-  vaguer.common_sigma_px =
-      std::hypot(vaguer.common_sigma_px,
-                 difference * (blades->upper.end.point_px - pivot.point_px).norm());
+  vaguer.common_sigma_px = std::hypot(
+      vaguer.common_sigma_px, difference * (blades->upper.end.point_px - pivot.point_px).norm());
   return true;
 }
 

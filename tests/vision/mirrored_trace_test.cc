@@ -106,5 +106,48 @@ TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
   EXPECT_FALSE(finds(0.5 * (opening_rad + kBeyondRad)));
 }
 
+// Whether, beside an upper edge that is where it belongs, a line is taken that lies so far outwards
+// of its end, less nearer to the pivot, and is drawn along so much of the blade from the tip on.
+bool TakesLineBeside(double off_px, double share, bool clear) {
+  constexpr double kDifferencePx = 6;
+  Measured measured{SceneWithMarkers()};
+  Measured::MakeClear(&measured.blades.upper);
+  if (!clear) measured.blades.upper.edge.ambiguity = 0.6;
+  const LocatedBlade& lower = measured.blades.lower;
+  const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+  const Vector2d upper_end = measured.blades.upper.used.back().trend_px;
+  const double reach_px = (upper_end - measured.pivot.point_px).norm();
+  const auto drawn_at = [&](double turn_rad) {
+    const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
+    std::vector<LocatedEdgePoint> course = lower.used;
+    for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
+    return course;
+  };
+  const auto gap_px = [&](double turn_rad) {
+    return (drawn_at(turn_rad).back().trend_px - lower.used.back().trend_px).norm();
+  };
+  const double outwards = gap_px(0.1) < gap_px(-0.1) ? 1 : -1;
+  SceneSpec bare = SceneWithMarkers();
+  bare.with_scissors = false;
+  cv::Mat picture = RenderScene(bare).bgr;
+  std::vector<LocatedEdgePoint> course = drawn_at(outwards * 0.5 * off_px / reach_px);
+  const auto points = static_cast<double>(course.size());
+  course.erase(course.begin(), course.begin() + std::lround((1 - share) * points));
+  DrawStep(course, &picture);
+  measured.photo = Measured::PhotoOf(picture);
+  return FindMirroredTrace(measured.View(), measured.blades.upper, lower, line, kDifferencePx)
+      .has_value();
+}
+
+TEST(FindMirroredTrace, TakesNoLineThatLeavesTheEdgesEnd) {
+  EXPECT_TRUE(TakesLineBeside(9, 1, false));
+  EXPECT_FALSE(TakesLineBeside(14, 1, false));
+}
+
+TEST(FindMirroredTrace, LeavesAClearEdgeForNoLineAlongHalfOfTheBlade) {
+  EXPECT_TRUE(TakesLineBeside(9, 0.5, false));
+  EXPECT_FALSE(TakesLineBeside(9, 0.5, true));
+}
+
 }  // namespace
 }  // namespace bladecurve
