@@ -24,14 +24,6 @@ double Credence(const Screw& screw) {
   return screw.evidence - 0.5 * sigmas * sigmas;
 }
 
-// The narrower of the shank and what shanks are at most beside such blades: where the silhouette
-// fills a gap beside the shank, it looks far too wide.
-double LeastShankWidth(const Scene& scene) {
-  constexpr double kOfBlades = 2.2;
-  return std::min(scene.shank_width_px,
-                  kOfBlades * 0.5 * (scene.left.width_px + scene.right.width_px));
-}
-
 // Heads of screws and rivets are a quarter to four fifths of the shank wide; engraved marks are
 // smaller, and what is as wide as the shank is mostly its own outline.
 ScrewSearch SearchForHead(const ScaleResult& scale,
@@ -40,7 +32,7 @@ ScrewSearch SearchForHead(const ScaleResult& scale,
                           double radius_px) {
   ScrewSearch search;
   if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
-  search.min_semi_axis_px = std::max(3.0, 0.13 * LeastShankWidth(scene));
+  search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
   search.max_semi_axis_px = std::max(4.0, 0.4 * scene.shank_width_px);
   search.guess_px = guess_px;
   search.radius_px = radius_px;
@@ -75,6 +67,20 @@ ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
       std::max({scene.shank_width_px, scene.left.width_px, scene.right.width_px});
   search.min_semi_axis_px = kOverlap * search.max_semi_axis_px;
   search.max_semi_axis_px = std::max(search.max_semi_axis_px, kWidest * members_px);
+  return search;
+}
+
+// The same for heads smaller than usual, if the blades are so narrow that the shank looks far too
+// wide: the silhouette fills a gap beside it.
+std::optional<ScrewSearch> SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kOfBlades = 2.2;  // shanks are no wider
+  constexpr double kOverlap = 1.25;  // of the smallest usual head: between the two none is lost
+  const double blades_px = 0.5 * (scene.left.width_px + scene.right.width_px);
+  const double share = kOfBlades * blades_px / scene.shank_width_px;
+  if (share >= 1) return std::nullopt;
+  ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
+  search.max_semi_axis_px = kOverlap * search.min_semi_axis_px;
+  search.min_semi_axis_px *= share;
   return search;
 }
 
@@ -167,8 +173,8 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
 }
 
 // Where no head was seen: one further forward; one all about the overlap, if faint then with a
-// slot; a wider one; a half-lit one. Necks of members and engraved marks are round, too, but less
-// so than heads; about few of them the edges mirror each other.
+// slot; a wider or a smaller one; a half-lit one. Necks of members and engraved marks are round,
+// too, but less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   constexpr double kUnmistakable = 25, kFaintSlotted = 5;
   const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
@@ -184,8 +190,12 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
   }
   if (clearest) return clearest;
-  const auto wide = FindHere(known, SearchWideHead(known.scale, known.scene));
-  if (wide && (wide->evidence > kUnmistakable || MirrorAbout(*wide, known))) return wide;
+  std::vector<ScrewSearch> others{SearchWideHead(known.scale, known.scene)};
+  if (const auto small = SearchSmallHead(known.scale, known.scene)) others.push_back(*small);
+  for (const ScrewSearch& search : others) {
+    const auto other = FindHere(known, search);
+    if (other && (other->evidence > kUnmistakable || MirrorAbout(*other, known))) return other;
+  }
   const auto half = FindHere(known, SearchHalfLit(known));
   return half && MirrorAbout(*half, known) ? half : std::nullopt;
 }

@@ -150,15 +150,19 @@ bool Gains(const RimFit& in_grain, const RimFit& plain) {
          apart.dot(plain.center_covariance.inverse() * apart) < kSame;
 }
 
-// Makes the ground about the head even and fits there anew; the light as it was if that fails. Of a
-// head lit from one side the rim has not the same blur all round, and what is taken for uneven
-// ground is partly its own.
+// Makes the ground about the head even and fits there anew; the light as it was if that fails, or
+// moves the head by more than any ground does: then it is so faint that little holds it. Of a head
+// lit from one side the rim has not the same blur all round, and what is taken for uneven ground is
+// partly its own.
 cv::Mat EvenOut(const cv::Mat& light, RefinedRim& refined) {
+  constexpr double kMost = 0.015, kMostPx = 0.2;  // of the radius; in small heads
   RimFitOptions options = refined.options;
   options.iterations = 4;  // it starts where the other ended
   cv::Mat even = WithEvenGround(light, refined.fit.rim);
   std::optional<RimFit> fit = FitRim(even, refined.fit.rim, options);
-  if (!fit || !SameRim(fit->rim, refined.fit.rim)) return light;
+  if (!fit) return light;
+  const double moved_px = (fit->rim.center - refined.fit.rim.center).norm();
+  if (moved_px > std::max(kMost * refined.fit.rim.MeanRadius(), kMostPx)) return light;
   fit->one_sided = refined.fit.one_sided;
   refined.fit = *fit;
   return even;
