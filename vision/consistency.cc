@@ -127,16 +127,21 @@ bool AreFarUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.025; }
 bool AreUnlike(double asymmetry) { return std::abs(asymmetry) >= 0.018; }
 bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 
+void Doubt(LocatedEdge* edge, double off_px) {
+  constexpr double kDoubt = 0.75;  // ambiguity
+  edge->ambiguity = std::max(edge->ambiguity, kDoubt);
+  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+}
+
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
-  constexpr double kDoubt = 0.75, kShare = 0.6;  // ambiguity; sigma, of the way to the other one
+  constexpr double kShare = 0.6;  // sigma, of the way to the other one
   if (!PassUnlike(pivot)) return;
   const double length_px = BladeLength(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
     if (!AreAlike(pivot.asymmetry + moved)) continue;
-    edge.ambiguity = std::max(edge.ambiguity, kDoubt);
-    edge.common_sigma_px = std::hypot(edge.common_sigma_px, kShare * edge.rival_px);
+    Doubt(&edge, kShare * edge.rival_px);
   }
 }
 

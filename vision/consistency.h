@@ -22,6 +22,9 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 [[nodiscard]] bool IsClear(const LocatedEdge& edge);
 [[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
 
+// Makes an edge ambiguous, and less certain by so much: it may lie that far off.
+void Doubt(LocatedEdge* edge, double off_px);
+
 // Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
 // and seen from a known side, are no mirror images about it by far.
 [[nodiscard]] bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);

@@ -56,15 +56,28 @@ void RefuseIfUnseen(double share_seen, double least_share) {
                     " % of its edge; use another background or light");
 }
 
-// The longest stretch within the edge where its points stray, as a share of its length.
-double LongestGap(const LocatedEdge& edge) {
-  size_t gap = 0, last = edge.points.size();
-  for (size_t i = 0; i < edge.points.size(); ++i) {
-    if (!edge.points[i].inlier) continue;
-    if (last < i) gap = std::max(gap, i - last - 1);
-    last = i;
+using Point = std::vector<LocatedEdgePoint>::const_iterator;
+
+// How many points in a row stray, at most.
+size_t MostStrayInARow(Point from, Point to) {
+  size_t stray = 0, most = 0;
+  for (Point point = from; point != to; ++point) {
+    stray = point->inlier ? 0 : stray + 1;
+    most = std::max(most, stray);
   }
-  return static_cast<double>(gap) / static_cast<double>(std::max(edge.points.size(), size_t{1}));
+  return most;
+}
+
+double ShareOf(const LocatedEdge& edge, size_t points) {
+  return static_cast<double>(points) / static_cast<double>(std::max(edge.points.size(), size_t{1}));
+}
+
+// As LongestStray, but between points that count.
+double LongestGap(const LocatedEdge& edge) {
+  const auto counts = [](const LocatedEdgePoint& point) { return point.inlier; };
+  const Point first = std::find_if(edge.points.begin(), edge.points.end(), counts);
+  const auto last = std::find_if(edge.points.rbegin(), edge.points.rend(), counts);
+  return first == edge.points.end() ? 0 : ShareOf(edge, MostStrayInARow(first, last.base()));
 }
 
 void RefuseIfBroken(double gap) {
@@ -152,12 +165,7 @@ double TotalSigma(const LocatedEdge& edge) {
 }
 
 double LongestStray(const LocatedEdge& edge) {
-  std::size_t stray = 0, longest = 0;
-  for (const LocatedEdgePoint& point : edge.points) {
-    stray = point.inlier ? 0 : stray + 1;
-    longest = std::max(longest, stray);
-  }
-  return static_cast<double>(longest) / static_cast<double>(edge.points.size());
+  return ShareOf(edge, MostStrayInARow(edge.points.begin(), edge.points.end()));
 }
 
 LocatedEdge LocateEdge(const cv::Mat& grey,

@@ -64,7 +64,7 @@ struct LocatedEdge {
 // The same with what they share counted.
 [[nodiscard]] double TotalSigma(const LocatedEdge& edge);
 
-// The longest stretch of points that do not count, as a share of the edge. Of an edge with points.
+// The longest stretch of points that do not count, as a share of the edge.
 [[nodiscard]] double LongestStray(const LocatedEdge& edge);
 
 // Locates the silhouette of the blade along `guess`, in linear light, by maximum likelihood on raw

@@ -249,7 +249,6 @@ std::optional<Relocated> LookForShape(const MirrorView& view,
 // doubted by as much as they differ.
 bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kUnlike = 0.006;  // of the length; rendered ones differ by up to 0.003
-  constexpr double kDoubt = 0.75;    // ambiguity
   const double difference = ShapeDifference(view, pivot, *blades);
   if (difference < kUnlike) return false;
   const auto upper = LookForShape(view, pivot, *blades, true, difference);
@@ -259,10 +258,8 @@ bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     return true;
   }
   const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
-  LocatedEdge& vaguer = OneOf(blades, upper_vaguer).blade.edge;
-  vaguer.ambiguity = std::max(vaguer.ambiguity, kDoubt);
-  vaguer.common_sigma_px = std::hypot(
-      vaguer.common_sigma_px, difference * (blades->upper.end.point_px - pivot.point_px).norm());
+  Doubt(&OneOf(blades, upper_vaguer).blade.edge,
+        difference * (blades->upper.end.point_px - pivot.point_px).norm());
   return true;
 }
 

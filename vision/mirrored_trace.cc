@@ -49,6 +49,10 @@ Part PartOf(std::size_t points, int index) {
   return {place(index + 0.5), place(index + 1.5)};
 }
 
+Vector2d MiddleOf(const Trace& trace, const Part& part) {
+  return trace[(part.first + part.end) / 2].trend_px;
+}
+
 // How far outwards of an edge a place lies.
 double OutsideBy(const LocatedBlade& blade, const Vector2d& place) {
   const auto nearest =
@@ -123,9 +127,8 @@ VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& p
 // by. A bevel's line nears the border towards the tip.
 bool LeavesEnd(const Trace& trace, const LocatedBlade& inner, double difference_px) {
   constexpr double kMost = 1.5, kNearestPx = 2;  // of the difference
-  const Part last = PartOf(trace.size(), kParts - 1);
-  const Vector2d middle = trace[(last.first + last.end) / 2].trend_px;
-  return OutsideBy(inner, middle) > kMost * difference_px + kNearestPx;
+  const Vector2d near_end = MiddleOf(trace, PartOf(trace.size(), kParts - 1));
+  return OutsideBy(inner, near_end) > kMost * difference_px + kNearestPx;
 }
 
 // What speaks for a trace as a whole.
@@ -145,7 +148,7 @@ Support SupportOf(const MirrorView& view,
   Support support;
   for (int index = 0; index < kParts; ++index) {
     const Part part = PartOf(trace.size(), index);
-    const Vector2d middle = trace[(part.first + part.end) / 2].trend_px;
+    const Vector2d middle = MiddleOf(trace, part);
     if (std::min(OutsideBy(inner, middle), OutsideBy(other, middle)) < kClearPx) continue;
     const double log_odds = test.LogOdds(ProfileAcross(view, trace, part));
     support.log_odds += std::clamp(log_odds, kLeast, kMost);

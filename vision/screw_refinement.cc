@@ -124,6 +124,13 @@ std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& sta
   return kept;
 }
 
+// Of a fit that starts where this one ended.
+RimFitOptions OnwardsFrom(const RefinedRim& refined) {
+  RimFitOptions options = refined.options;
+  options.iterations = 4;
+  return options;
+}
+
 // The least doubtful.
 std::optional<RefinedRim> FitLight(const cv::Mat& light,
                                    const RimEllipse& start,
@@ -156,10 +163,8 @@ bool Gains(const RimFit& in_grain, const RimFit& plain) {
 // partly its own.
 cv::Mat EvenOut(const cv::Mat& light, RefinedRim& refined) {
   constexpr double kMost = 0.015, kMostPx = 0.2;  // of the radius; in small heads
-  RimFitOptions options = refined.options;
-  options.iterations = 4;  // it starts where the other ended
   cv::Mat even = WithEvenGround(light, refined.fit.rim);
-  std::optional<RimFit> fit = FitRim(even, refined.fit.rim, options);
+  std::optional<RimFit> fit = FitRim(even, refined.fit.rim, OnwardsFrom(refined));
   if (!fit) return light;
   const double moved_px = (fit->rim.center - refined.fit.rim.center).norm();
   if (moved_px > std::max(kMost * refined.fit.rim.MeanRadius(), kMostPx)) return light;
@@ -170,9 +175,8 @@ cv::Mat EvenOut(const cv::Mat& light, RefinedRim& refined) {
 
 // The fit in the grain of the metal if that gains.
 std::optional<RimFit> FitInGrain(const cv::Mat& light, const RefinedRim& refined) {
-  RimFitOptions options = refined.options;
+  RimFitOptions options = OnwardsFrom(refined);
   options.grain = true;
-  options.iterations = 4;  // it starts where the other ended
   const std::optional<RimFit> in_grain = FitRim(light, refined.fit.rim, options);
   if (!in_grain || !Gains(*in_grain, refined.fit)) return std::nullopt;
   return in_grain;
@@ -187,9 +191,8 @@ std::optional<RimFit> LeaveOutOddThird(const cv::Mat& light,
   constexpr double kApart = 2;   // sigmas of the fit without it
   const RimFit& fit = refined.fit;
   if (fit.rim.MeanRadius() < kLeastShadedPx || fit.third_support > kOdd) return std::nullopt;
-  RimFitOptions options = refined.options;
+  RimFitOptions options = OnwardsFrom(refined);
   options.first_half_px = options.last_half_px;
-  options.iterations = 4;  // it starts where the other ended
   options.left_out_rad = fit.odd_third_rad;
   const std::optional<RimFit> without = FitRim(light, fit.rim, options);
   if (!without || !SameRim(without->rim, start)) return std::nullopt;

@@ -62,9 +62,9 @@ void ExpectTheEndIsCut(bool upper, bool at_tip, Course course) {
   constexpr double kClosePx = 1.2;  // half the tolerance of the cut, and noise
   constexpr double kEndPx = 3;
   Measured measured{SceneWithMarkers()};
-  LocatedBlade& astray = upper ? measured.blades.upper : measured.blades.lower;
-  const LocatedBlade& other = upper ? measured.blades.lower : measured.blades.upper;
-  const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+  LocatedBlade& astray = measured.Blade(upper);
+  const LocatedBlade& other = measured.Blade(!upper);
+  const EdgeTruth& truth = measured.TrueEdge(upper);
   LeadAstray(&measured, &astray, at_tip, course);
   ASSERT_GT(FarthestFrom(truth, astray), 2 * kClosePx);
   const std::vector<Vector2d> others = PointsOf(other);

@@ -32,8 +32,8 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
   constexpr double kAsidePx = 16, kClosePx = 0.3, kAlike = 0.01;
   for (const bool upper : {true, false}) {
     Measured measured{SceneWithMarkers()};
-    LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
-    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    LocatedBlade& misplaced = measured.Blade(upper);
+    const EdgeTruth& truth = measured.TrueEdge(upper);
     measured.Misplace(&misplaced, kAsidePx);
     ASSERT_GT(FarFrom(truth, misplaced.used), 0.9 * kAsidePx);
     Relocate(&measured);
@@ -45,30 +45,23 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
 
 // As if another line had been followed from so far along the edge on to so far.
 void Bulge(Measured* measured, LocatedBlade* blade, double from, double to, double outwards_px) {
-  std::vector<LocatedEdgePoint>& points = blade->edge.points;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(points.size());
-    if (share < from || share > to) continue;
-    const Vector2d shift =
-        outwards_px * std::sin(std::numbers::pi * (share - from) / (to - from)) * points[i].normal;
-    points[i].point_px += shift;
-    points[i].trend_px += shift;
-  }
-  KeepFree(measured->scene, blade);
-  measured->Compare();
+  measured->Shift(blade, [&](double share) {
+    if (share < from || share > to) return 0.0;
+    return outwards_px * std::sin(std::numbers::pi * (share - from) / (to - from));
+  });
 }
 
 TEST(RelocateUnlikeEdges, FindsTheEdgeThatPassesThePivotAlikeButIsUnlikeInShape) {
   constexpr double kBulgePx = 16, kClosePx = 0.3;
   for (const bool upper : {true, false}) {
     Measured measured{SceneWithMarkers()};
-    LocatedBlade& unlike = upper ? measured.blades.upper : measured.blades.lower;
-    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    LocatedBlade& unlike = measured.Blade(upper);
+    const EdgeTruth& truth = measured.TrueEdge(upper);
     Bulge(&measured, &unlike, 0.65, 1, kBulgePx);
     ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry)) << upper;
     Relocate(&measured);
     EXPECT_LT(FarFrom(truth, unlike.used), kClosePx) << upper;
-    EXPECT_EQ((upper ? measured.blades.lower : measured.blades.upper).moved, "");
+    EXPECT_EQ(measured.Blade(!upper).moved, "");
   }
 }
 
@@ -111,8 +104,8 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeOutsideOfAClearerLineOnTheBlade) {
   constexpr double kInsidePx = 16, kClosePx = 0.3;
   for (const bool upper : {true, false}) {
     Measured measured{SceneWithMarkers()};
-    LocatedBlade& misplaced = upper ? measured.blades.upper : measured.blades.lower;
-    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
+    LocatedBlade& misplaced = measured.Blade(upper);
+    const EdgeTruth& truth = measured.TrueEdge(upper);
     measured.Misplace(&misplaced, -kInsidePx, Measured::kStrong);
     ASSERT_GT(FarFrom(truth, misplaced.used), 0.9 * kInsidePx);
     Relocate(&measured);
@@ -167,9 +160,9 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   constexpr double kClosePx = 0.3;
   for (const bool upper : {true, false}) {
     Measured measured{SceneWithMarkers()};
-    LocatedBlade& lost = upper ? measured.blades.upper : measured.blades.lower;
-    const EdgeTruth& truth = upper ? measured.truth.upper : measured.truth.lower;
-    measured.MakeClear(upper ? &measured.blades.lower : &measured.blades.upper);
+    LocatedBlade& lost = measured.Blade(upper);
+    const EdgeTruth& truth = measured.TrueEdge(upper);
+    measured.MakeClear(&measured.Blade(!upper));
     measured.Lose(&lost, kLittlePx);
     ASSERT_GT(FarFrom(truth, lost.used), 0.7 * kLittlePx);
     Relocate(&measured);

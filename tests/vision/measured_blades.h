@@ -125,14 +125,27 @@ struct Measured {
   // As if the edge had been taken for a faint line of the background, or for another one.
   static constexpr double kFaint = 0.01, kStrong = 0.9;
   void Misplace(LocatedBlade* blade, double outwards_px, double contrast = kFaint) {
-    for (LocatedEdgePoint& p : blade->edge.points) {
-      const Vector2d shift = outwards_px * p.normal;
-      p.point_px += shift;
-      p.trend_px += shift;
-      p.contrast = contrast;
+    for (LocatedEdgePoint& p : blade->edge.points) p.contrast = contrast;
+    Shift(blade, [&](double) { return outwards_px; });
+  }
+
+  // Outwards by outwards_px(share of the edge) at each point.
+  template <typename Outwards>
+  void Shift(LocatedBlade* blade, const Outwards& outwards_px) {
+    std::vector<LocatedEdgePoint>& points = blade->edge.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double share = static_cast<double>(i) / static_cast<double>(points.size());
+      const Vector2d shift = outwards_px(share) * points[i].normal;
+      points[i].point_px += shift;
+      points[i].trend_px += shift;
     }
     KeepFree(scene, blade);
     Compare();
+  }
+
+  [[nodiscard]] LocatedBlade& Blade(bool upper) { return upper ? blades.upper : blades.lower; }
+  [[nodiscard]] const EdgeTruth& TrueEdge(bool upper) const {
+    return upper ? truth.upper : truth.lower;
   }
 
   [[nodiscard]] MirrorView View() const { return {photo, scale, scene}; }

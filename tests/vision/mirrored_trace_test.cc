@@ -53,10 +53,14 @@ TEST(FindMirroredTrace, FindsTheBorderOfABevelThatMirrorsTheGround) {
   EXPECT_LT(found.off_px, kClosePx);
 }
 
-TEST(FindMirroredTrace, FindsNoneOnABareSheet) {
+cv::Mat BareSheet() {
   SceneSpec bare = SceneWithMarkers();
   bare.with_scissors = false;
-  EXPECT_FALSE(FindIn(SceneWithMarkers(), RenderScene(bare).bgr).any);
+  return RenderScene(bare).bgr;
+}
+
+TEST(FindMirroredTrace, FindsNoneOnABareSheet) {
+  EXPECT_FALSE(FindIn(SceneWithMarkers(), BareSheet()).any);
 }
 
 // A step in the light along a course, dark on the far side of its normals.
@@ -74,30 +78,36 @@ void DrawStep(const std::vector<LocatedEdgePoint>& course, cv::Mat* picture) {
   }
 }
 
+// An edge mirrored at the line turned.
+std::vector<LocatedEdgePoint> MirroredAtTurned(const MirrorLine& line,
+                                               const LocatedBlade& blade,
+                                               double turn_rad) {
+  const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
+  std::vector<LocatedEdgePoint> course = blade.used;
+  for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
+  return course;
+}
+
+// The sign of turns that bring the mirror image nearer to the edge itself.
+double TowardsItself(const MirrorLine& line, const LocatedBlade& blade) {
+  const auto off_px = [&](double turn_rad) {
+    return (MirroredAtTurned(line, blade, turn_rad).back().trend_px - blade.used.back().trend_px)
+        .norm();
+  };
+  return off_px(0.1) < off_px(-0.1) ? 1 : -1;
+}
+
 TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
   constexpr double kBeyondRad = 0.06;
   const Measured measured{SceneWithMarkers()};
   const LocatedBlade &upper = measured.blades.upper, &lower = measured.blades.lower;
   const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
-  // The lower edge about the line turned.
-  const auto drawn_at = [&](double turn_rad) {
-    const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
-    std::vector<LocatedEdgePoint> course = lower.used;
-    for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
-    return course;
-  };
   const Vector2d end = lower.used.back().trend_px, pivot_px = line.map.ImageFromPlane(line.pivot);
   const double opening_rad = measured.truth.theta_rad;
-  const auto off_px = [&](double turn_rad) {
-    return (drawn_at(turn_rad).back().trend_px - end).norm();
-  };
-  const double toward = off_px(0.1) < off_px(-0.1) ? 1 : -1;
   const double difference_px = opening_rad * (end - pivot_px).norm();
-  SceneSpec bare = SceneWithMarkers();
-  bare.with_scissors = false;
   const auto finds = [&](double turn_rad) {
-    cv::Mat picture = RenderScene(bare).bgr;
-    DrawStep(drawn_at(toward * turn_rad), &picture);
+    cv::Mat picture = BareSheet();
+    DrawStep(MirroredAtTurned(line, lower, TowardsItself(line, lower) * turn_rad), &picture);
     Measured seen{SceneWithMarkers()};
     seen.photo = Measured::PhotoOf(picture);
     return FindMirroredTrace(seen.View(), upper, lower, line, difference_px).has_value();
@@ -117,22 +127,11 @@ bool TakesLineBeside(double off_px, double share, bool clear) {
   const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
   const Vector2d upper_end = measured.blades.upper.used.back().trend_px;
   const double reach_px = (upper_end - measured.pivot.point_px).norm();
-  const auto drawn_at = [&](double turn_rad) {
-    const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
-    std::vector<LocatedEdgePoint> course = lower.used;
-    for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
-    return course;
-  };
-  const auto gap_px = [&](double turn_rad) {
-    return (drawn_at(turn_rad).back().trend_px - lower.used.back().trend_px).norm();
-  };
-  const double outwards = gap_px(0.1) < gap_px(-0.1) ? 1 : -1;
-  SceneSpec bare = SceneWithMarkers();
-  bare.with_scissors = false;
-  cv::Mat picture = RenderScene(bare).bgr;
-  std::vector<LocatedEdgePoint> course = drawn_at(outwards * 0.5 * off_px / reach_px);
+  const double turn_rad = TowardsItself(line, lower) * 0.5 * off_px / reach_px;
+  std::vector<LocatedEdgePoint> course = MirroredAtTurned(line, lower, turn_rad);
   const auto points = static_cast<double>(course.size());
   course.erase(course.begin(), course.begin() + std::lround((1 - share) * points));
+  cv::Mat picture = BareSheet();
   DrawStep(course, &picture);
   measured.photo = Measured::PhotoOf(picture);
   return FindMirroredTrace(measured.View(), measured.blades.upper, lower, line, kDifferencePx)
