@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "vision/colour_border.h"
+#include "vision/consistency.h"
 #include "vision/edge_colour.h"
 #include "vision/edge_curve.h"
 #include "vision/edge_shadow.h"
@@ -196,6 +198,27 @@ class BladeLocator {
     *right = *r;
   }
 
+  // Where grey leaves doubts, both edges are compared with where the ground's colour ends: light
+  // changes at shadows' borders and bevels' lines too.
+  void SettleByColour(bool upper_on_left, BladeEdges* edges) {
+    constexpr double kFaint = 0.3, kAmbiguous = 0.25;  // px
+    const auto doubtful = [&](const LocatedEdge& edge) {
+      return TotalSigma(edge) > kFaint || edge.ambiguity > kAmbiguous;
+    };
+    if (!doubtful(edges->upper) && !doubtful(edges->lower)) return;
+    constexpr int kLongSide = 1000;  // px; colours are stored at half resolution anyway
+    ReducedColours colours{photo_.DecodeColour(kLongSide, 2), 1};
+    colours.px = static_cast<double>(photo_.grey().cols) / colours.bgr.cols;
+    const BladeEdges found = *edges;
+    ParallelFor(2, [&](int blade) {
+      if (blade == 0) {
+        LeaveLightAlone(colours, found.lower, upper_on_left, &edges->upper);
+      } else {
+        LeaveLightAlone(colours, found.upper, !upper_on_left, &edges->lower);
+      }
+    });
+  }
+
  private:
   // look(view, guess) in colours that part blade and background much better than grey does, where
   // grey hides the edge, or shows it so faintly that the colours place it twice as well.
@@ -232,6 +255,38 @@ class BladeLocator {
     auto again = UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
     if (again && Information(*again) > Information(edge)) return *std::move(again);
     return edge;
+  }
+
+  // From a line at which only light changes to the one at which the ground's colour ends.
+  void LeaveLightAlone(const ReducedColours& colours,
+                       const LocatedEdge& other,
+                       bool left,
+                       LocatedEdge* edge) {
+    constexpr double kFar = 1.5;  // pixels of the reduced picture
+    constexpr double kSearchPx = 4;
+    const double width_px = (left ? scene_.left : scene_.right).width_px;
+    const auto border = FindColourBorder(colours, tone_, *edge, other, width_px);
+    if (!border || std::abs(border->offset_px) < kFar * colours.px) return;
+    const EdgeGuess guess{border->path_px, left, kSearchPx};
+    std::optional<LocatedEdge> again = InColoursThenGrey(guess);
+    if (again) {
+      *edge = *std::move(again);
+    } else {
+      Doubt(edge, std::abs(border->offset_px));
+    }
+  }
+
+  // In the colours, and in grey, which is sharper, where that shows an edge at the same place.
+  [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess) {
+    constexpr double kColoursOffPx = 2;
+    auto coloured = UnlessRefused(
+        [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone_, guess), guess); });
+    if (!coloured) return std::nullopt;
+    const EdgeGuess close{TrendOf(*coloured), guess.blade_on_left, kColoursOffPx};
+    auto grey = UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, close, options_); });
+    const bool clearer =
+        grey && grey->ambiguity < kAsGood && Information(*grey) > Information(*coloured);
+    return clearer ? grey : coloured;
   }
 
   // From a soft shadow's border to where the shadow begins, if that is seen.
@@ -299,6 +354,7 @@ BladeEdges LocateBlades(const Photo& photo,
                        upper_on_left ? &edges.lower : &edges.upper);
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
+  locator.SettleByColour(upper_on_left, &edges);
   return edges;
 }
 

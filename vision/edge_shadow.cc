@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "vision/chroma.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -13,13 +14,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Logarithms of blue and red over green: shade leaves them, ambient light shifts them a little.
-using Chroma = Vector2d;
-
 // Typical colour along an edge at `from`..`to` px from it, positive out of the blade.
 std::optional<Chroma> ChromaAlong(
     const cv::Mat& bgr, const ToneCurve& tone, const LocatedEdge& edge, double from, double to) {
-  constexpr double kDarkest = 1e-3;  // linear light; three grey levels
   constexpr std::size_t kStride = 2, kFewest = 20;
   std::vector<double> blue, red;
   for (std::size_t i = 0; i < edge.points.size(); i += kStride) {
@@ -30,9 +27,10 @@ std::optional<Chroma> ChromaAlong(
                         static_cast<int>(std::lround(at.y())));
       if (!cv::Rect({0, 0}, bgr.size()).contains(p)) continue;
       const auto& seen = bgr.at<cv::Vec3b>(p);
-      const double green = std::log(tone.linear[seen[1]] + kDarkest);
-      blue.push_back(std::log(tone.linear[seen[0]] + kDarkest) - green);
-      red.push_back(std::log(tone.linear[seen[2]] + kDarkest) - green);
+      const Chroma chroma =
+          ChromaOf({tone.linear[seen[0]], tone.linear[seen[1]], tone.linear[seen[2]]});
+      blue.push_back(chroma[0]);
+      red.push_back(chroma[1]);
     }
   }
   if (blue.size() < kFewest) return std::nullopt;

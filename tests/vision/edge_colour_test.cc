@@ -10,6 +10,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/colour_border.h"
 #include "vision/edge_images.h"
 #include "vision/edge_shadow.h"
 #include "vision/refused.h"
@@ -161,6 +162,68 @@ TEST(JudgeDarkBand, IsSurerWhereColoursDifferMore) {
 TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
   const Vector3d steel(170, 168, 166), paper(220, 220, 216);
   EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
+}
+
+// Where the colours of the bands `from` the edge outwards, in px, put the border of OutsideABand.
+std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light) {
+  Gaussian random(4);
+  constexpr double kBladePx = 60, kGapPx = 60;
+  LocatedEdge other = OutsideABand();
+  for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
+  return FindColourBorder(
+      {Coloured(random, light), 1}, testing::GammaCurve(1), OutsideABand(), other, kBladePx);
+}
+
+double MeanOffset(const std::vector<Vector2d>& path_px) {
+  double sum = 0;
+  for (const Vector2d& p : path_px) sum += kNormal.dot(p) - kOffset;
+  return sum / static_cast<double>(path_px.size());
+}
+
+constexpr double kBandPx = 9;
+
+TEST(ColourBorder, LiesWhereTheGroundsColourEndsNotWhereItsShadowDoes) {
+  const Vector3d steel(90, 86, 82), wood(60, 110, 190);
+  for (const double shade : {0.6, 0.3}) {
+    const auto border = BorderBeside([&](double d) {
+      return steel + Smooth(d + kBandPx) * (shade * wood - steel) + Smooth(d) * (1 - shade) * wood;
+    });
+    ASSERT_TRUE(border) << shade;
+    EXPECT_NEAR(MeanOffset(border->path_px), -kBandPx, 1) << shade;
+    EXPECT_NEAR(border->offset_px, -kBandPx, 1.5) << shade;
+  }
+}
+
+TEST(ColourBorder, LiesWhereTheBladesColourEndsNotWhereItsBevelDoes) {
+  const Vector3d steel(170, 165, 160), drape(150, 90, 40);
+  for (const double bevel : {0.6, 0.3}) {
+    const auto border = BorderBeside([&](double d) {
+      return steel + Smooth(d) * (bevel - 1) * steel +
+             Smooth(d - kBandPx) * (drape - bevel * steel);
+    });
+    ASSERT_TRUE(border) << bevel;
+    EXPECT_NEAR(MeanOffset(border->path_px), kBandPx, 1) << bevel;
+    EXPECT_NEAR(border->offset_px, kBandPx, 1.5) << bevel;
+  }
+}
+
+TEST(ColourBorder, LeavesTheEdgeWhereColourAndLightChangeTogether) {
+  const Vector3d steel(170, 165, 160), wood(60, 110, 190);
+  for (const double shade : {1.0, 0.5, 0.1}) {
+    const auto border =
+        BorderBeside([&](double d) { return shade * (steel + Smooth(d) * (wood - steel)); });
+    ASSERT_TRUE(border) << shade;
+    EXPECT_NEAR(border->offset_px, 0, 0.5) << shade;
+  }
+}
+
+TEST(ColourBorder, IsNotSeenOnAGreyGroundNorWhereTheBladeMirrorsTheGround) {
+  const Vector3d steel(170, 165, 160), paper(230, 228, 226), wood(60, 110, 190);
+  EXPECT_FALSE(BorderBeside([&](double d) { return steel + Smooth(d) * (paper - steel); }));
+  constexpr double kMirroredPx = 14;
+  EXPECT_FALSE(BorderBeside([&](double d) {
+    return steel + Smooth(d / kMirroredPx * 2) * (0.6 * wood - steel) + Smooth(d) * 0.4 * wood;
+  }));
 }
 
 }  // namespace

@@ -57,6 +57,28 @@ TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
   }
 }
 
+// In their shadows the drape is as dark as the blades: grey shows the shadows' borders alone.
+TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
+  constexpr double kClosePx = 0.3;
+  for (const double shadow : {0.78, 0.8}) {
+    SceneSpec spec = SceneWithShadowsInTheGap(35 * kDegree);
+    spec.finish = Finish::kBlack;
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = {0.06, 0.2, 0.12};
+    spec.light.shadow = shadow;
+    const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
+    ScaleOptions options;
+    options.mm_per_px = spec.camera.mm_per_px;
+    const ScaleResult scale = FindScale(photo, options);
+    StageLog log;
+    const Scene scene = FindScene(photo, scale.markers, {}, &log);
+    const BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
+  }
+}
+
 // Scene finding may take a piece of the background for blade: its trace has a notch then.
 TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
   constexpr double kClosePx = 0.3, kNotchPx = 10;

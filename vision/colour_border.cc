@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/colour_border.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vision/chroma.h"
+#include "vision/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// An edge is looked at in so many stretches, each averaged along its length.
+constexpr int kStretches = 12;
+
+struct Stretch {
+  std::size_t first, last;  // points of the edge, `last` excluded
+};
+
+Stretch StretchOf(const LocatedEdge& edge, int k) {
+  const auto begin = [&](int i) {
+    return edge.points.size() * static_cast<std::size_t>(i) / kStretches;
+  };
+  return {begin(k), begin(k + 1)};
+}
+
+// Linear light (BGR) across a stretch, a row every pixel of the reduced picture.
+struct Profile {
+  int inner = 0, outer = 0;  // rows within the blade and outside
+  std::vector<Vector3d> rows;
+
+  [[nodiscard]] const Vector3d& At(int across) const {
+    return rows[static_cast<std::size_t>(across + inner)];
+  }
+  // Of the rows from..to, as far as there are any.
+  [[nodiscard]] Vector3d Mean(int from, int to) const {
+    Vector3d sum = Vector3d::Zero();
+    from = std::clamp(from, -inner, outer);
+    to = std::clamp(to, -inner, outer);
+    for (int v = from; v <= to; ++v) sum += At(v);
+    return sum / (to - from + 1);
+  }
+};
+
+// std::nullopt where much of it is out of the picture.
+std::optional<Profile> ProfileAcross(const ReducedColours& colours,
+                                     const ToneCurve& tone,
+                                     const LocatedEdge& edge,
+                                     const Stretch& stretch,
+                                     int inner,
+                                     int outer) {
+  Profile profile{inner, outer, {}};
+  for (int across = -inner; across <= outer; ++across) {
+    Vector3d light = Vector3d::Zero();
+    std::size_t count = 0;
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+      const LocatedEdgePoint& point = edge.points[i];
+      const Vector2d at = colours.Reduced(point.trend_px) + across * point.normal;
+      const cv::Point p(static_cast<int>(std::lround(at.x())),
+                        static_cast<int>(std::lround(at.y())));
+      if (!cv::Rect({0, 0}, colours.bgr.size()).contains(p)) continue;
+      const auto& seen = colours.bgr.at<cv::Vec3b>(p);
+      light += Vector3d(tone.linear[seen[0]], tone.linear[seen[1]], tone.linear[seen[2]]);
+      ++count;
+    }
+    if (2 * count <= stretch.last - stretch.first) return std::nullopt;
+    profile.rows.emplace_back(light / static_cast<double>(count));
+  }
+  return profile;
+}
+
+// `light` without what is of the colour of `other`: no shade of that accounts for the rest.
+Vector3d Apart(const Vector3d& light, const Vector3d& other) {
+  return light - other * (light.dot(other) / other.squaredNorm());
+}
+
+// Where, going inwards over the rows from..to, the light along `apart` passes half of `level`.
+double HalfWay(const Profile& profile, const Vector3d& apart, double level, int from, int to) {
+  const auto above = [&](int v) { return profile.At(v).dot(apart) - 0.5 * level; };
+  for (int v = from; v > to; --v) {
+    if ((above(v) >= 0) != (above(v - 1) >= 0)) return v - above(v) / (above(v) - above(v - 1));
+  }
+  return above(from) >= 0 ? to : from;
+}
+
+// Where a profile, going inwards, leaves the ground's colour for the blade's; rows from the edge.
+// Colours mix half and half nearer to the darker side, the blade's light comes up late where the
+// blade is dim at its border, and the ground's goes early where a shadow begins: the border lies
+// among the three.
+struct Transition {
+  double of_colour = 0, of_blades_light = 0, of_grounds_light = 0;
+
+  // The nearest to the edge of the three; 0 if they lie on both sides of it.
+  [[nodiscard]] double Nearest() const {
+    const auto [low, high] = std::minmax({of_colour, of_blades_light, of_grounds_light});
+    return low > 0 ? low : std::min(high, 0.0);
+  }
+};
+
+std::optional<Transition> TransitionIn(const Profile& profile) {
+  constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
+  constexpr double kToldApart = 0.2;               // chromas nearer than that are not
+  constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
+  constexpr double kStillBlade = 0.4;
+  constexpr int kSlowest = 5;             // rows; a slower change is that of a mirrored ground
+  constexpr int kBeside = 2, kPlain = 4;  // rows from the transition, where light is plain
+  const int outer = profile.outer, inner = -profile.inner;
+  const int blade_from = -static_cast<int>(kAlone * profile.inner);
+  const Vector3d ground = profile.Mean(static_cast<int>(kAlone * outer), outer);
+  const Vector3d blade = profile.Mean(inner, blade_from);
+  const Chroma of_ground = ChromaOf(ground), way = ChromaOf(blade) - of_ground;
+  if (way.norm() < kToldApart) return std::nullopt;
+  const auto share = [&](int v) {
+    return (ChromaOf(profile.At(v)) - of_ground).dot(way) / way.squaredNorm();
+  };
+  int last_ground = outer;
+  while (last_ground > inner && share(last_ground) < kGround) --last_ground;
+  int first_blade = last_ground;
+  while (first_blade > inner && share(first_blade) < kBlade) --first_blade;
+  if (last_ground == outer || first_blade <= blade_from || last_ground - first_blade > kSlowest)
+    return std::nullopt;
+  for (int v = first_blade; v >= inner; --v) {
+    if (share(v) < kStillBlade) return std::nullopt;
+  }
+  const int from = std::min(last_ground + kPlain, outer);
+  const int to = std::max(first_blade - kPlain, inner);
+  const Vector3d blades = Apart(blade, ground), grounds = Apart(ground, blade);
+  const double blades_level = profile.Mean(first_blade - kPlain, first_blade - kBeside).dot(blades);
+  const double grounds_level =
+      profile.Mean(last_ground + kBeside, last_ground + kPlain).dot(grounds);
+  return Transition{0.5 * (last_ground + first_blade + 1),
+                    HalfWay(profile, blades, blades_level, from, to),
+                    HalfWay(profile, grounds, grounds_level, from, to)};
+}
+
+// Blades taper: where much of a blade's width is too much, less of it is looked at.
+std::optional<Transition> TransitionAcross(const ReducedColours& colours,
+                                           const ToneCurve& tone,
+                                           const LocatedEdge& edge,
+                                           const Stretch& stretch,
+                                           double blade_px,
+                                           double gap_px) {
+  constexpr double kMuch = 0.65, kLess = 0.3;  // of the blade's width
+  constexpr double kOfGap = 0.6;
+  constexpr int kLeast = 6;  // rows
+  for (const double of_blade : {kMuch, kLess}) {
+    const int inner = std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
+    const int outer = std::min(inner, static_cast<int>(kOfGap * gap_px / colours.px));
+    if (outer < kLeast) return std::nullopt;
+    const auto profile = ProfileAcross(colours, tone, edge, stretch, inner, outer);
+    if (!profile) continue;
+    if (auto transition = TransitionIn(*profile)) return transition;
+  }
+  return std::nullopt;
+}
+
+double DistanceTo(const LocatedEdge& other, const Vector2d& point) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const LocatedEdgePoint& p : other.points)
+    nearest = std::min(nearest, (p.trend_px - point).squaredNorm());
+  return std::sqrt(nearest);
+}
+
+struct StretchOffset {
+  int stretch = 0;
+  double offset_px = 0;
+};
+
+// The edge's points moved by the offsets: linear between the stretches, constant beyond.
+std::vector<Vector2d> Moved(const LocatedEdge& edge, const std::vector<StretchOffset>& offsets) {
+  std::vector<Vector2d> path;
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < edge.points.size(); ++i) {
+    const double at =
+        (static_cast<double>(i) + 0.5) * kStretches / static_cast<double>(edge.points.size()) - 0.5;
+    while (k + 2 < offsets.size() && offsets[k + 1].stretch < at) ++k;
+    const StretchOffset& a = offsets[k];
+    const StretchOffset& b = offsets[k + 1];
+    const double share = std::clamp((at - a.stretch) / (b.stretch - a.stretch), 0.0, 1.0);
+    const double offset = std::lerp(a.offset_px, b.offset_px, share);
+    path.push_back(edge.points[i].trend_px + offset * edge.points[i].normal);
+  }
+  return path;
+}
+
+// Typical distance of an offset from half-way between its neighbours.
+double KinkOf(const std::vector<StretchOffset>& offsets) {
+  std::vector<double> kinks;
+  for (std::size_t k = 1; k + 1 < offsets.size(); ++k) {
+    const double between = 0.5 * (offsets[k - 1].offset_px + offsets[k + 1].offset_px);
+    kinks.push_back(std::abs(offsets[k].offset_px - between));
+  }
+  return Median(std::move(kinks));
+}
+
+}  // namespace
+
+std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
+                                             const ToneCurve& tone,
+                                             const LocatedEdge& edge,
+                                             const LocatedEdge& other,
+                                             double blade_px) {
+  constexpr std::size_t kFewest = 4;  // stretches
+  constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
+  std::vector<StretchOffset> offsets;
+  std::vector<double> nearest;
+  for (int k = 0; k < kStretches; ++k) {
+    const Stretch stretch = StretchOf(edge, k);
+    const Vector2d middle = edge.points[(stretch.first + stretch.last) / 2].trend_px;
+    const auto transition =
+        TransitionAcross(colours, tone, edge, stretch, blade_px, DistanceTo(other, middle));
+    if (!transition) continue;
+    offsets.push_back({k, colours.px * transition->of_colour});
+    nearest.push_back(colours.px * transition->Nearest());
+  }
+  if (offsets.size() < kFewest || KinkOf(offsets) > kSmooth * colours.px) return std::nullopt;
+  return ColourBorder{Moved(edge, offsets), Median(std::move(nearest))};
+}
+
+}  // namespace bladecurve
