@@ -103,6 +103,21 @@ struct Transition {
   }
 };
 
+// Whether what has the ground's colour between the edge and a border further in lies in shadow:
+// darker than the ground outside, and all the more the nearer to the blade. A bevel that mirrors
+// the ground is brighter than what lies before it in the blade's own shadow. True where the two
+// are too close to tell.
+bool LiesInShadow(const Profile& profile, double border) {
+  constexpr int kBeside = 3;      // rows
+  constexpr double kEven = 1.05;  // ratio of light
+  const int first = static_cast<int>(std::ceil(border)) + 1, middle = first / 2;
+  if (first > -2) return true;
+  const double outside = profile.Mean(1, kBeside).sum();
+  const double outer = profile.Mean(middle, -1).sum(),
+               inner = profile.Mean(first, middle - 1).sum();
+  return outside > kEven * outer && inner < kEven * outer;
+}
+
 std::optional<Transition> TransitionIn(const Profile& profile) {
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
   constexpr double kToldApart = 0.2;               // chromas nearer than that are not
@@ -134,9 +149,11 @@ std::optional<Transition> TransitionIn(const Profile& profile) {
   const double blades_level = profile.Mean(first_blade - kPlain, first_blade - kBeside).dot(blades);
   const double grounds_level =
       profile.Mean(last_ground + kBeside, last_ground + kPlain).dot(grounds);
-  return Transition{0.5 * (last_ground + first_blade + 1),
-                    HalfWay(profile, blades, blades_level, from, to),
-                    HalfWay(profile, grounds, grounds_level, from, to)};
+  const Transition found{0.5 * (last_ground + first_blade + 1),
+                         HalfWay(profile, blades, blades_level, from, to),
+                         HalfWay(profile, grounds, grounds_level, from, to)};
+  if (found.Nearest() < 0 && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
+  return found;
 }
 
 // Blades taper: where much of a blade's width is too much, less of it is looked at.

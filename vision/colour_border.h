@@ -33,9 +33,9 @@ struct ColourBorder {
   double offset_px = 0;
 };
 
-// std::nullopt where blade and ground are alike in colour, or go over into each other slowly, as
-// where the blade mirrors the ground. other: the other blade's edge; blade_px: how wide the blade
-// is.
+// std::nullopt where blade and ground are alike in colour, or the blade mirrors the ground: colours
+// go over into each other slowly, or the ground's goes on within the edge without a shadow. other:
+// the other blade's edge; blade_px: how wide the blade is.
 [[nodiscard]] std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                                            const ToneCurve& tone,
                                                            const LocatedEdge& edge,

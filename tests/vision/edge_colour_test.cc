@@ -217,6 +217,16 @@ TEST(ColourBorder, LeavesTheEdgeWhereColourAndLightChangeTogether) {
   }
 }
 
+// The bevel mirrors the wood as bright as it is; before it the wood lies in the blade's own shadow.
+TEST(ColourBorder, IsNoneWhereABevelMirrorsTheGround) {
+  constexpr double kShadowPx = 4;
+  const Vector3d steel(170, 165, 160), wood(60, 110, 190);
+  EXPECT_FALSE(BorderBeside([&](double d) {
+    const double shade = 1 - 0.6 * Smooth(d) * (1 - Smooth(d - kShadowPx));
+    return steel + Smooth(d + kBandPx) * (shade * wood - steel);
+  }));
+}
+
 TEST(ColourBorder, IsNotSeenOnAGreyGroundNorWhereTheBladeMirrorsTheGround) {
   const Vector3d steel(170, 165, 160), paper(230, 228, 226), wood(60, 110, 190);
   EXPECT_FALSE(BorderBeside([&](double d) { return steel + Smooth(d) * (paper - steel); }));
