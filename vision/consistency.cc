@@ -101,6 +101,15 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
                     "--pivot X,Y");
 }
 
+void RefuseEdgesShortOfPivot(const Pivot& pivot) {
+  const double shorter = pivot.overlap + pivot.overlap_sigma - 0.5 * std::abs(pivot.asymmetry);
+  if (pivot.source != "screw" || shorter >= 0) return;
+  throw Refused(Reason::kNotScissors,
+                "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
+                "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
+                "or a shadow hides that edge: use another background or light");
+}
+
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   constexpr double kMost = 0.07;  // of the length; blades photographed at a slant differ by 0.05
   const bool seen = pivot.source != "geometry";
