@@ -223,6 +223,8 @@ std::optional<BladePair> PairAt(const Silhouette& silhouette,
   pair.quality = 1;
   pair.crotch = outline.At(at.gap->far);
   pair.shank_crotch = outline.At(back);
+  pair.shank_first = ends->shank_first;
+  pair.shank_second = ends->shank_second;
   GradeLayout(*ends, &pair);
   if (pair.quality <= 0) return std::nullopt;  // most inlets: they need no closer look
   DescribeBlades(silhouette, at, *ends, &pair);

@@ -18,6 +18,7 @@ struct BladePair {
       second;  // clockwise from the crotch as the mask is seen: `first` comes before it
   Eigen::Vector2d crotch;
   std::optional<Eigen::Vector2d> shank_crotch;  // the concavity opposite, between the shanks
+  Eigen::Vector2d shank_first, shank_second;    // the shanks' ends
   Eigen::Vector2d pivot;                        // centre of the overlap: where the members cross
   double pivot_sigma = 0;
   double shank_width = 0;  // of the members near the pivot

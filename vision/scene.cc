@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/blades.h"
+#include "vision/catches.h"
 #include "vision/cross.h"
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
@@ -126,10 +127,11 @@ Scene SceneFrom(const Candidate& found) {
 
 void RefuseUnlessUsable(const LadderResult& ladder) {
   if (!ShowsWholeBlades(ladder) && ladder.closed) {
-    throw Refused(Reason::kClosed,
-                  "scene: the scissors are closed, or the gap between the blades looks like the "
-                  "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
-                  "are open, expose less, or use another ground or softer light");
+    throw Refused(
+        Reason::kClosed,
+        "scene: the scissors are closed, or the gap between the blades looks like the "
+        "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
+        "are open, expose less, or use another ground or softer light");
   }
   if (ladder.best.pair.quality < kAcceptedQuality) {
     const std::string nearest = ladder.best.pair.doubt.empty()
@@ -151,6 +153,13 @@ void RefuseUnlessUsable(const LadderResult& ladder) {
   }
 }
 
+void RefuseClamps(const Candidate& found, const StoredHints& hints) {
+  if (hints.pivot_px || !ShanksCarryCatches(found.mask, found.pair)) return;
+  throw Refused(Reason::kNotScissors,
+                "scene: both shanks carry a catch, as those of clamps and needle holders do, which "
+                "do not cut; if these are scissors, say where the screw is: --pivot X,Y");
+}
+
 }  // namespace
 
 Scene FindScene(const Photo& photo,
@@ -159,6 +168,7 @@ Scene FindScene(const Photo& photo,
                 StageLog* log) {
   const LadderResult ladder = ClimbLadder(photo, markers, hints, log);
   RefuseUnlessUsable(ladder);
+  RefuseClamps(ladder.best, hints);
   Scene scene = SceneFrom(ladder.best);
   if (hints.pivot_px) {
     scene.pivot_px = *hints.pivot_px;

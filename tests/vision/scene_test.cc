@@ -261,6 +261,45 @@ TEST(MeasurePhoto, RefusesJawsThatMeet) {
 }
 
 // Without a screw the edges tell where they turn if they open wide; else the user must.
+// A block of metal on a shank's inner side, as clamps carry to be locked.
+void PaintCatch(const SceneSpec& spec,
+                const EdgeTruth& blade,
+                const EdgeTruth& other,
+                cv::Mat* bgr) {
+  constexpr double kFromPivotMm = 48, kLongMm = 6, kHighMm = 5;
+  constexpr double kMetal = 140;
+  const Eigen::Vector2d pivot = TruthOf(spec).pivot_px;
+  const Eigen::Vector2d along = (pivot - blade.end_px).normalized();
+  const Eigen::Vector2d across(-along.y(), along.x());
+  const Eigen::Vector2d inwards = (pivot - other.end_px).dot(across) > 0 ? across : -across;
+  const double px_per_mm = 1 / spec.camera.mm_per_px;
+  const Eigen::Vector2d middle = pivot + kFromPivotMm * px_per_mm * along;
+  std::vector<cv::Point> corners;
+  for (const auto& [along_mm, inwards_mm] :
+       {std::pair(-0.5 * kLongMm, 0.0),
+        std::pair(0.5 * kLongMm, 0.0),
+        std::pair(0.5 * kLongMm, kHighMm + spec.scissors.shank_mm),
+        std::pair(-0.5 * kLongMm, kHighMm + spec.scissors.shank_mm)}) {
+    const Eigen::Vector2d corner = middle + px_per_mm * (along_mm * along + inwards_mm * inwards);
+    corners.emplace_back(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
+  }
+  cv::fillConvexPoly(*bgr, corners, cv::Scalar::all(kMetal));
+}
+
+TEST(MeasurePhoto, RefusesShanksThatCarryTheCatchesOfAClamp) {
+  SceneSpec spec = SmallScene();
+  spec.theta_rad = 40 * kDegree;
+  auto [picture, truth] = RenderScene(spec);
+  EXPECT_EQ(ReasonFor(picture), "");
+  PaintCatch(spec, truth.upper, truth.lower, &picture);
+  EXPECT_EQ(ReasonFor(picture), "");  // on one shank alone: something else
+  PaintCatch(spec, truth.lower, truth.upper, &picture);
+  EXPECT_EQ(ReasonFor(picture), "not_scissors");
+  SceneHints hints;
+  hints.pivot_px = truth.pivot_px;
+  EXPECT_EQ(ReasonFor(picture, hints), "");
+}
+
 TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
   SceneSpec spec = SmallScene();
   spec.scissors.screw_visible = false;

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/catches.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "vision/nearest_pixel.h"
+#include "vision/robust_statistics.h"
+#include "vision/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// A shank from where it parts from the other one to its end; `inwards`, a unit vector across it,
+// points to the other one.
+struct Shank {
+  Vector2d from, to, inwards;
+};
+
+Shank ShankTo(const Vector2d& end, const Vector2d& other_end, const Vector2d& crotch) {
+  const Vector2d along = (end - crotch).normalized();
+  const Vector2d across(-along.y(), along.x());
+  return {crotch, end, (other_end - end).dot(across) > 0 ? across : -across};
+}
+
+// Where the silhouette begins and ends across a shank, px inwards of its line.
+struct Sides {
+  double outer = 0, inner = 0;
+};
+
+// The part of the silhouette across a shank that lies beside `last` the longest way, or nearest to
+// it: `last` again if there is none.
+Sides FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Sides& last) {
+  constexpr double kReach = 0.35, kStep = 0.5;  // of the length; px
+  const Vector2d center = shank.from + share * (shank.to - shank.from);
+  const double reach = kReach * (shank.to - shank.from).norm();
+  const auto beside = [&](const Sides& run) {
+    return std::min(run.inner, last.inner) - std::max(run.outer, last.outer);
+  };
+  std::optional<Sides> best, run;
+  for (double d = -reach; d <= reach; d += kStep) {
+    if (IsSetAt(filled, center + d * shank.inwards)) {
+      run = Sides{run ? run->outer : d, d};
+      continue;
+    }
+    if (run && (!best || beside(*run) > beside(*best))) best = run;
+    run.reset();
+  }
+  return best.value_or(last);
+}
+
+// The highest rise of a shank's inner side, its outer side being straight there.
+struct Rise {
+  double of_width = 0;  // over the shank's width
+  double along_px = 0;  // from where the shanks part
+};
+
+Rise HighestRise(const cv::Mat& filled, const Shank& shank) {
+  constexpr double kStep = 0.01, kFirst = 0.25;  // of the length
+  constexpr int kSteps = 63;                     // rings lie beyond
+  constexpr int kShankFrom = 5, kShankTo = 35;   // steps
+  constexpr int kReach = 10;          // steps; so far on either side of it a catch has ended
+  constexpr double kNarrowest = 2;    // px, of a shank
+  constexpr double kStraight = 0.35;  // of the width; a broken ring's rim goes to that side, too
+  std::vector<Sides> sides;
+  std::vector<double> widths;
+  for (int k = 0; k < kSteps; ++k) {
+    const Sides last = sides.empty() ? Sides{} : sides.back();
+    sides.push_back(FollowTo(filled, shank, kFirst + kStep * k, last));
+    if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().inner - sides.back().outer);
+  }
+  const double width = std::max(kNarrowest, Median(std::move(widths)));
+  const auto nearer = [](const Sides& a, const Sides& b) { return a.inner < b.inner; };
+  Rise highest;
+  for (int k = kReach; k + kReach < kSteps; ++k) {
+    const auto at = sides.begin() + k;
+    const Sides before = *std::min_element(at - kReach, at, nearer);
+    const Sides after = *std::min_element(at + 1, at + kReach + 1, nearer);
+    const double rise = (at->inner - std::max(before.inner, after.inner)) / width;
+    const double bulge = (std::min(before.outer, after.outer) - at->outer) / width;
+    if (bulge < kStraight && rise > highest.of_width)
+      highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm()};
+  }
+  return highest;
+}
+
+}  // namespace
+
+bool ShanksCarryCatches(const cv::Mat& mask, const BladePair& pair) {
+  constexpr int kThings = 6;
+  constexpr double kHigh = 0.55;  // of the shank's width; ragged masks of scissors reach 0.42
+  constexpr double kAlike = 0.1;
+  if (!pair.shank_crotch) return false;
+  const Vector2d& crotch = *pair.shank_crotch;
+  for (const Silhouette& thing : FindSilhouettes(mask, kThings)) {
+    if (!IsSetAt(thing.filled, pair.pivot)) continue;
+    const Rise first =
+        HighestRise(thing.filled, ShankTo(pair.shank_first, pair.shank_second, crotch));
+    const Rise second =
+        HighestRise(thing.filled, ShankTo(pair.shank_second, pair.shank_first, crotch));
+    return std::min(first.of_width, second.of_width) > kHigh &&
+           std::abs(first.along_px - second.along_px) <
+               kAlike * std::max(first.along_px, second.along_px);
+  }
+  return false;
+}
+
+}  // namespace bladecurve
