@@ -40,7 +40,7 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
 }
 
 // Of the overlap at the pivot; jaws have 0.03 and less.
-constexpr double kLeastOfScissors = 0.055;
+constexpr double kLeastOfScissors = 0.045;
 
 void RefuseJaws(const Pivot& pivot) {
   constexpr double kLeastOverlap = 0.04;  // between those of scissors and of jaws

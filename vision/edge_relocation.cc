@@ -199,15 +199,15 @@ void RelocateClearerOne(const MirrorView& view, const Pivot& pivot, Blades* blad
 bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLeastPx = 1.5;       // a thinner band cannot be told from blur
   constexpr double kLeastShare = 0.004;  // of the length; blades are ground alike to less
-  constexpr double kLeft = 0.3;          // of the difference
-  constexpr double kNearest = 1;         // px
-  constexpr double kSeen = 0.65;         // ambiguity; what texture shows is seen less
+  constexpr double kLeft = 0.3, kLeftByDoubtful = 0.5;  // of the difference
+  constexpr double kNearest = 1;                        // px
+  constexpr double kSeen = 0.65;  // ambiguity; what texture shows is seen less
   const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
   const Mirroring mirroring{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || mirroring.WayPx() < kLeastPx) return false;
   const std::optional<Relocated> found = mirroring.LookInShadow(kNearest);
-  if (!found || found->blade.edge.ambiguity > kSeen) return false;
-  if (!AreAlike(found->asymmetry) || mirroring.LeftBy(*found) > kLeft) return false;
+  if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) return false;
+  if (mirroring.LeftBy(*found) > (IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft)) return false;
   Replace(*found, "inside a shadow, where the other one puts it", &outer);
   MarkAsAssumed(view, pivot, &outer);
   return true;

@@ -126,6 +126,24 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
   }
 }
 
+// A pivot that is half a pixel aside leaves edges unlike that are right: a doubtful one is taken to
+// there all the same.
+TEST(RelocateUnlikeEdges, LeavesAShadowsBorderTheSoonerTheMoreDoubtfulItIs) {
+  constexpr double kAsidePx = 0.6, kClosePx = 0.3, kHardMm = 0.2;
+  for (const bool doubtful : {false, true}) {
+    Measured measured{SceneWithShadow(72 * kDegree, 270 * kDegree, kHardMm)};
+    const Vector2d& axis = measured.truth.axis_px;
+    measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
+    measured.blades.lower.edge.ambiguity = doubtful ? 0.8 : 0.1;
+    measured.Compare();
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.lower.moved.empty(), !doubtful);
+    if (doubtful) {
+      EXPECT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), kClosePx);
+    }
+  }
+}
+
 // Too little aside to be told by the mirror alone, 0.018 of the blades' length.
 constexpr double kLittlePx = 3;
 
