@@ -198,14 +198,17 @@ class BladeLocator {
     *right = *r;
   }
 
-  // Where grey leaves doubts, both edges are compared with where the ground's colour ends: light
-  // changes at shadows' borders and bevels' lines too.
+  // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
+  // and bevels' lines too. Large photographs, whose colours take longer to decode than all else
+  // takes, only where grey leaves a doubt.
   void SettleByColour(bool upper_on_left, BladeEdges* edges) {
-    constexpr double kFaint = 0.3, kAmbiguous = 0.25;  // px
+    constexpr double kVaguePx = 0.5, kLarge = 3e6;  // px
     const auto doubtful = [&](const LocatedEdge& edge) {
-      return TotalSigma(edge) > kFaint || edge.ambiguity > kAmbiguous;
+      return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
     };
-    if (!doubtful(edges->upper) && !doubtful(edges->lower)) return;
+    if (static_cast<double>(photo_.grey().total()) > kLarge && !doubtful(edges->upper) &&
+        !doubtful(edges->lower))
+      return;
     constexpr int kLongSide = 1000;  // px; colours are stored at half resolution anyway
     ReducedColours colours{photo_.DecodeColour(kLongSide, 2), 1};
     colours.px = static_cast<double>(photo_.grey().cols) / colours.bgr.cols;
