@@ -244,6 +244,13 @@ std::optional<Relocated> LookForShape(const MirrorView& view,
   return found;
 }
 
+// By as much as the two differ.
+void DoubtVaguerOne(const Pivot& pivot, double difference, Blades* blades) {
+  const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
+  Doubt(&OneOf(blades, upper_vaguer).blade.edge,
+        difference * (blades->upper.end.point_px - pivot.point_px).norm());
+}
+
 // Whether edges are unlike in shape, and if so, what can be done: the one that is seen where the
 // other puts it is taken from there; if that holds of neither, or of both, the vaguer one is
 // doubted by as much as they differ.
@@ -257,9 +264,7 @@ bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     Replace(upper ? *upper : *lower, kWhereMirrored, upper ? &blades->upper : &blades->lower);
     return true;
   }
-  const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
-  Doubt(&OneOf(blades, upper_vaguer).blade.edge,
-        difference * (blades->upper.end.point_px - pivot.point_px).norm());
+  DoubtVaguerOne(pivot, difference, blades);
   return true;
 }
 
@@ -311,6 +316,14 @@ bool RelocateLostOne(const MirrorView& view, const Pivot& pivot, Blades* blades)
   return true;
 }
 
+// Whether the edges differ by more than a pivot that lies a little aside makes them.
+bool IsBeyondPivot(const Pivot& pivot, const Blades& blades) {
+  constexpr double kSigmas = 3;
+  const double sigma_px = 2 * std::sqrt(pivot.covariance_px2.trace() / 2);
+  const double length_px = (blades.upper.end.point_px - pivot.point_px).norm();
+  return std::abs(pivot.asymmetry) * length_px > kSigmas * sigma_px;
+}
+
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
@@ -323,7 +336,11 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot.asymmetry)) {
-    if (!LeaveBothShadows(view, pivot, blades)) RelocateClearerOne(view, pivot, blades);
+    if (LeaveBothShadows(view, pivot, blades)) return;
+    RelocateClearerOne(view, pivot, blades);
+    const bool none_moved = blades->upper.moved.empty() && blades->lower.moved.empty();
+    if (none_moved && IsBeyondPivot(pivot, *blades))
+      DoubtVaguerOne(pivot, std::abs(pivot.asymmetry), blades);
   } else if (!SettleShapes(view, pivot, blades)) {
     RelocateDoubtfulOne(view, pivot, blades);
   }

@@ -126,6 +126,27 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
   }
 }
 
+// Edges that differ although nothing else is seen: one of them may be a bevel's or a shadow's line,
+// unless the pivot is known no better than to lie aside.
+TEST(RelocateUnlikeEdges, DoubtsTheVaguerOfEdgesThatNothingMakesAlike) {
+  constexpr double kAsidePx = 2;
+  for (const double pivot_sigma_px : {0.2, 1.0}) {
+    Measured measured{SceneWithMarkers()};
+    const Vector2d& axis = measured.truth.axis_px;
+    measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
+    measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+    measured.Compare();
+    measured.MakeClear(&measured.blades.upper);
+    measured.blades.lower.edge.common_sigma_px = 0.5;
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.lower.moved, "");
+    EXPECT_LT(measured.blades.upper.edge.ambiguity, 0.5);
+    const LocatedEdge& lower = measured.blades.lower.edge;
+    const bool doubted = lower.ambiguity > 0.7 && lower.common_sigma_px > kAsidePx;
+    EXPECT_EQ(doubted, pivot_sigma_px < 1) << pivot_sigma_px;
+  }
+}
+
 // A pivot that is half a pixel aside leaves edges unlike that are right: a doubtful one is taken to
 // there all the same.
 TEST(RelocateUnlikeEdges, LeavesAShadowsBorderTheSoonerTheMoreDoubtfulItIs) {
