@@ -111,10 +111,12 @@ void RefuseEdgesShortOfPivot(const Pivot& pivot) {
 }
 
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
-  constexpr double kMost = 0.07;  // of the length; blades photographed at a slant differ by 0.05
+  constexpr double kMost = 0.07;   // of the length; blades photographed at a slant differ by 0.05
+  constexpr double kPlain = 0.85;  // quality; lines on a mat that cross look like worse ones
   const bool seen = pivot.source != "geometry";
   const bool mirrored = std::abs(pivot.asymmetry) < kMost;
-  if (!scene.IsDoubtful() || (seen && (mirrored || !scene.outlined))) return;
+  const bool doubtful = scene.IsDoubtful() || (!seen && scene.quality < kPlain);
+  if (!doubtful || (seen && (mirrored || !scene.outlined))) return;
   throw Refused(Reason::kLowContrast,
                 "edges: shadows or a ground as bright as the blades leave " +
                     std::string(scene.outlined ? "nothing but lines to tell them by"

@@ -83,6 +83,10 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
   Pivot inferred = PivotSeen(0);
   inferred.source = "geometry";
   EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, inferred));
+  Scene fair = plain;
+  fair.quality = 0.8;
+  EXPECT_THROW(RefuseUnconfirmedScene(fair, inferred), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(fair, PivotSeen(-0.1)));
   EXPECT_THROW(RefuseUnconfirmedScene(doubtful, inferred), Refused);
   EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, PivotSeen(-0.1)));
   EXPECT_THROW(RefuseUnconfirmedScene(outlined, inferred), Refused);
