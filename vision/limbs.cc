@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -60,6 +61,16 @@ bool RunsOutOfSight(const std::vector<Vector2d>& points,
     if (!inner.contains(at)) return true;
     return !hidden.empty() && cv::countNonZero(hidden(cv::Rect(at.x - 2, at.y - 2, 5, 5))) > 0;
   });
+}
+
+// Of a shank half way along, beside whatever lies on it there: a label.
+double WidthHalfWay(const cv::Mat& filled, const Vector2d& from, const Vector2d& to) {
+  constexpr double kUncovered = 1.8;  // times the width elsewhere; shanks taper less
+  const double width = WidthAcross(filled, from, to, 0.4);
+  std::array<double, 4> elsewhere{0.3, 0.5, 0.56, 0.62};
+  for (double& t : elsewhere) t = WidthAcross(filled, from, to, t);
+  std::sort(elsewhere.begin(), elsewhere.end());
+  return width > kUncovered * elsewhere[1] ? elsewhere[1] : width;
 }
 
 }  // namespace
@@ -168,7 +179,7 @@ ShankEnd DescribeShank(const Silhouette& silhouette,
   for (const double t : {0.75, 0.83, 0.9, 0.95}) {
     widest = std::max(widest, WidthAcross(silhouette.filled, shank_crotch, point, t));
   }
-  const double middle = std::max(1.0, WidthAcross(silhouette.filled, shank_crotch, point, 0.4));
+  const double middle = std::max(1.0, WidthHalfWay(silhouette.filled, shank_crotch, point));
   end.flare = widest / middle;
   end.cut_off = RunsOutOfSight(arc, hidden, silhouette.filled.size());
   return end;

@@ -156,6 +156,20 @@ TEST(LooksClosed, IsNotARodThatRunsOutOfThePicture) {
 
 // Blades to the left whose tips lie beside markers, shanks to the right that the frame cuts before
 // their rings: either may be what goes on beyond.
+TEST(DescribeShank, SeesTheRingBesideALabelThatLiesOnTheShank) {
+  constexpr double kRing = 1.5;  // flare
+  const Eigen::Vector2d crotch(20, 150), end(480, 150);
+  for (const bool label : {false, true}) {
+    cv::Mat mask(300, 500, CV_8UC1, cv::Scalar(0));
+    cv::rectangle(mask, {20, 145}, {430, 155}, cv::Scalar(255), cv::FILLED);
+    cv::circle(mask, {450, 150}, 30, cv::Scalar(255), cv::FILLED);
+    if (label) cv::rectangle(mask, {175, 100}, {235, 200}, cv::Scalar(255), cv::FILLED);
+    Silhouette silhouette;
+    silhouette.filled = mask;
+    EXPECT_GT(DescribeShank(silhouette, {}, {}, end, crotch).flare, kRing) << label;
+  }
+}
+
 TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
   cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
   cv::Mat hidden = cv::Mat::zeros(mask.size(), CV_8UC1);
