@@ -77,7 +77,8 @@ std::optional<Profile> ProfileAcross(const ReducedColours& colours,
 
 // `light` without what is of the colour of `other`: no shade of that accounts for the rest.
 Vector3d Apart(const Vector3d& light, const Vector3d& other) {
-  return light - other * (light.dot(other) / other.squaredNorm());
+  constexpr double kBlack = 1e-9;
+  return light - other * (light.dot(other) / std::max(other.squaredNorm(), kBlack));
 }
 
 // Where, going inwards over the rows from..to, the light along `apart` passes half of `level`.
@@ -225,6 +226,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              double blade_px) {
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
+  if (edge.points.size() < kStretches) return std::nullopt;
   std::vector<StretchOffset> offsets;
   std::vector<double> nearest;
   for (int k = 0; k < kStretches; ++k) {

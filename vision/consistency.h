@@ -33,8 +33,8 @@ void Doubt(LocatedEdge* edge, double off_px);
 // seen, are no mirror images by far: one of them is something else's border.
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
 
-// Throws Refused{kNotScissors} where one of the edges, continued, does not reach past a pivot that is
-// seen: those of blades that cut cross it on the other blade's side.
+// Throws Refused{kNotScissors} where one of the edges, continued, does not reach past a pivot that
+// is seen: those of blades that cut cross it on the other blade's side.
 void RefuseEdgesShortOfPivot(const Pivot& pivot);
 
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms it:
