@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "vision/nearest_pixel.h"
@@ -29,30 +28,18 @@ Shank ShankTo(const Vector2d& end, const Vector2d& other_end, const Vector2d& cr
   return {crotch, end, (other_end - end).dot(across) > 0 ? across : -across};
 }
 
-// Where the silhouette begins and ends across a shank, px inwards of its line.
-struct Sides {
-  double outer = 0, inner = 0;
-};
-
-// The part of the silhouette across a shank that lies beside `last` the longest way, or nearest to
-// it: `last` again if there is none.
-Sides FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Sides& last) {
-  constexpr double kReach = 0.35, kStep = 0.5;  // of the length; px
-  const Vector2d center = shank.from + share * (shank.to - shank.from);
-  const double reach = kReach * (shank.to - shank.from).norm();
-  const auto beside = [&](const Sides& run) {
-    return std::min(run.inner, last.inner) - std::max(run.outer, last.outer);
+// Where a shank begins and ends across its line at a share of its length, px inwards of it: the run
+// that lies beside `last` the longest way, or nearest to it; `last` again if there is none.
+Run FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Run& last) {
+  const Vector2d line = shank.to - shank.from;
+  const std::vector<Run> runs =
+      RunsAcross(filled, shank.from + share * line, shank.inwards, kLimbReach * line.norm());
+  const auto beside = [&](const Run& run) {
+    return std::min(run.to, last.to) - std::max(run.from, last.from);
   };
-  std::optional<Sides> best, run;
-  for (double d = -reach; d <= reach; d += kStep) {
-    if (IsSetAt(filled, center + d * shank.inwards)) {
-      run = Sides{run ? run->outer : d, d};
-      continue;
-    }
-    if (run && (!best || beside(*run) > beside(*best))) best = run;
-    run.reset();
-  }
-  return best.value_or(last);
+  const auto best = std::max_element(
+      runs.begin(), runs.end(), [&](auto& a, auto& b) { return beside(a) < beside(b); });
+  return best == runs.end() ? last : *best;
 }
 
 // The highest rise of a shank's inner side, its outer side being straight there.
@@ -68,22 +55,22 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank) {
   constexpr int kReach = 10;          // steps; so far on either side of it a catch has ended
   constexpr double kNarrowest = 2;    // px, of a shank
   constexpr double kStraight = 0.35;  // of the width; a broken ring's rim goes to that side, too
-  std::vector<Sides> sides;
+  std::vector<Run> sides;
   std::vector<double> widths;
   for (int k = 0; k < kSteps; ++k) {
-    const Sides last = sides.empty() ? Sides{} : sides.back();
+    const Run last = sides.empty() ? Run{} : sides.back();
     sides.push_back(FollowTo(filled, shank, kFirst + kStep * k, last));
-    if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().inner - sides.back().outer);
+    if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().to - sides.back().from);
   }
   const double width = std::max(kNarrowest, Median(std::move(widths)));
-  const auto nearer = [](const Sides& a, const Sides& b) { return a.inner < b.inner; };
+  const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
   Rise highest;
   for (int k = kReach; k + kReach < kSteps; ++k) {
     const auto at = sides.begin() + k;
-    const Sides before = *std::min_element(at - kReach, at, nearer);
-    const Sides after = *std::min_element(at + 1, at + kReach + 1, nearer);
-    const double rise = (at->inner - std::max(before.inner, after.inner)) / width;
-    const double bulge = (std::min(before.outer, after.outer) - at->outer) / width;
+    const Run before = *std::min_element(at - kReach, at, nearer);
+    const Run after = *std::min_element(at + 1, at + kReach + 1, nearer);
+    const double rise = (at->to - std::max(before.to, after.to)) / width;
+    const double bulge = (std::min(before.from, after.from) - at->from) / width;
     if (bulge < kStraight && rise > highest.of_width)
       highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm()};
   }

@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "vision/chroma.h"
+#include "vision/pixel_light.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -47,33 +47,6 @@ struct Profile {
     return sum / (to - from + 1);
   }
 };
-
-// std::nullopt where much of it is out of the picture.
-std::optional<Profile> ProfileAcross(const ReducedColours& colours,
-                                     const ToneCurve& tone,
-                                     const LocatedEdge& edge,
-                                     const Stretch& stretch,
-                                     int inner,
-                                     int outer) {
-  Profile profile{inner, outer, {}};
-  for (int across = -inner; across <= outer; ++across) {
-    Vector3d light = Vector3d::Zero();
-    std::size_t count = 0;
-    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-      const LocatedEdgePoint& point = edge.points[i];
-      const Vector2d at = colours.Reduced(point.trend_px) + across * point.normal;
-      const cv::Point p(static_cast<int>(std::lround(at.x())),
-                        static_cast<int>(std::lround(at.y())));
-      if (!cv::Rect({0, 0}, colours.bgr.size()).contains(p)) continue;
-      const auto& seen = colours.bgr.at<cv::Vec3b>(p);
-      light += Vector3d(tone.linear[seen[0]], tone.linear[seen[1]], tone.linear[seen[2]]);
-      ++count;
-    }
-    if (2 * count <= stretch.last - stretch.first) return std::nullopt;
-    profile.rows.emplace_back(light / static_cast<double>(count));
-  }
-  return profile;
-}
 
 // `light` without what is of the colour of `other`: no shade of that accounts for the rest.
 Vector3d Apart(const Vector3d& light, const Vector3d& other) {
@@ -157,33 +130,52 @@ std::optional<Transition> TransitionIn(const Profile& profile) {
   return found;
 }
 
-// Blades taper: where much of a blade's width is too much, less of it is looked at.
-std::optional<Transition> TransitionAcross(const ReducedColours& colours,
-                                           const ToneCurve& tone,
-                                           const LocatedEdge& edge,
-                                           const Stretch& stretch,
-                                           double blade_px,
-                                           double gap_px) {
-  constexpr double kMuch = 0.65, kLess = 0.3;  // of the blade's width
-  constexpr double kOfGap = 0.6;
-  constexpr int kLeast = 6;  // rows
-  for (const double of_blade : {kMuch, kLess}) {
-    const int inner = std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
-    const int outer = std::min(inner, static_cast<int>(kOfGap * gap_px / colours.px));
-    if (outer < kLeast) return std::nullopt;
-    const auto profile = ProfileAcross(colours, tone, edge, stretch, inner, outer);
-    if (!profile) continue;
-    if (auto transition = TransitionIn(*profile)) return transition;
-  }
-  return std::nullopt;
-}
+// An edge in the reduced picture.
+struct EdgeInColours {
+  const ReducedColours& colours;
+  const ToneCurve& tone;
+  const LocatedEdge& edge;
 
-double DistanceTo(const LocatedEdge& other, const Vector2d& point) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const LocatedEdgePoint& p : other.points)
-    nearest = std::min(nearest, (p.trend_px - point).squaredNorm());
-  return std::sqrt(nearest);
-}
+  // std::nullopt where much of it is out of the picture.
+  [[nodiscard]] std::optional<Profile> ProfileAcross(const Stretch& stretch,
+                                                     int inner,
+                                                     int outer) const {
+    Profile profile{inner, outer, {}};
+    for (int across = -inner; across <= outer; ++across) {
+      Vector3d sum = Vector3d::Zero();
+      std::size_t count = 0;
+      for (std::size_t i = stretch.first; i < stretch.last; ++i) {
+        const LocatedEdgePoint& point = edge.points[i];
+        const auto light =
+            LightAt(colours.bgr, tone, colours.Reduced(point.trend_px) + across * point.normal);
+        if (!light) continue;
+        sum += *light;
+        ++count;
+      }
+      if (2 * count <= stretch.last - stretch.first) return std::nullopt;
+      profile.rows.emplace_back(sum / static_cast<double>(count));
+    }
+    return profile;
+  }
+
+  // Blades taper: where much of a blade's width is too much, less of it is looked at.
+  [[nodiscard]] std::optional<Transition> TransitionAcross(const Stretch& stretch,
+                                                           double blade_px,
+                                                           double gap_px) const {
+    constexpr double kMuch = 0.65, kLess = 0.3;  // of the blade's width
+    constexpr double kOfGap = 0.6;
+    constexpr int kLeast = 6;  // rows
+    for (const double of_blade : {kMuch, kLess}) {
+      const int inner = std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
+      const int outer = std::min(inner, static_cast<int>(kOfGap * gap_px / colours.px));
+      if (outer < kLeast) return std::nullopt;
+      const auto profile = ProfileAcross(stretch, inner, outer);
+      if (!profile) continue;
+      if (auto transition = TransitionIn(*profile)) return transition;
+    }
+    return std::nullopt;
+  }
+};
 
 struct StretchOffset {
   int stretch = 0;
@@ -226,14 +218,15 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              double blade_px) {
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
-  if (edge.points.size() < kStretches) return std::nullopt;
+  if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
+  const EdgeInColours seen{colours, tone, edge};
   std::vector<StretchOffset> offsets;
   std::vector<double> nearest;
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
     const Vector2d middle = edge.points[(stretch.first + stretch.last) / 2].trend_px;
-    const auto transition =
-        TransitionAcross(colours, tone, edge, stretch, blade_px, DistanceTo(other, middle));
+    const double gap_px = (other.points[NearestPoint(other, middle)].trend_px - middle).norm();
+    const auto transition = seen.TransitionAcross(stretch, blade_px, gap_px);
     if (!transition) continue;
     offsets.push_back({k, colours.px * transition->of_colour});
     nearest.push_back(colours.px * transition->Nearest());

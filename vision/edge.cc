@@ -164,6 +164,14 @@ double TotalSigma(const LocatedEdge& edge) {
   return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
 }
 
+std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_px) {
+  const auto nearest =
+      std::min_element(edge.points.begin(), edge.points.end(), [&](const auto& a, const auto& b) {
+        return (a.trend_px - place_px).squaredNorm() < (b.trend_px - place_px).squaredNorm();
+      });
+  return static_cast<std::size_t>(nearest - edge.points.begin());
+}
+
 double LongestStray(const LocatedEdge& edge) {
   return ShareOf(edge, MostStrayInARow(edge.points.begin(), edge.points.end()));
 }

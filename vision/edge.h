@@ -64,6 +64,9 @@ struct LocatedEdge {
 // The same with what they share counted.
 [[nodiscard]] double TotalSigma(const LocatedEdge& edge);
 
+// Of the point whose trend lies nearest to a place, in `points`.
+[[nodiscard]] std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_px);
+
 // The longest stretch of points that do not count, as a share of the edge.
 [[nodiscard]] double LongestStray(const LocatedEdge& edge);
 

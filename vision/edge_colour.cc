@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/edge_path.h"
+#include "vision/pixel_light.h"
 
 namespace bladecurve {
 namespace {
@@ -25,12 +26,6 @@ struct SideLight {
   Matrix3d scatter = Matrix3d::Zero();
 };
 
-Vector3d LightAt(const cv::Mat& picture, const ToneCurve& tone, int x, int y) {
-  if (picture.channels() == 1) return Vector3d::Constant(tone.linear[picture.at<uchar>(y, x)]);
-  const auto& bgr = picture.at<cv::Vec3b>(y, x);
-  return {tone.linear[bgr[0]], tone.linear[bgr[1]], tone.linear[bgr[2]]};
-}
-
 // The side `outwards` of the path (-1: the blade), some way off it: the guess may be as far off as
 // its search range. The part near the crotch, where the other blade is close, is left out.
 SideLight SampleSide(const cv::Mat& picture,
@@ -45,13 +40,10 @@ SideLight SampleSide(const cv::Mat& picture,
   for (int i = static_cast<int>(kFirst * path.size()); i < kLast * path.size(); i += 2) {
     const auto k = static_cast<size_t>(i);
     for (double d = kNearest * search_px; d <= kFarthest * search_px; d += 2) {
-      const Vector2d at = path.points[k] + outwards * d * path.normals[k];
-      const int x = static_cast<int>(std::lround(at.x())),
-                y = static_cast<int>(std::lround(at.y()));
-      if (x < 0 || y < 0 || x >= picture.cols || y >= picture.rows) continue;
-      const Vector3d light = LightAt(picture, tone, x, y);
-      side.mean += light;
-      side.scatter += light * light.transpose();
+      const auto light = LightAt(picture, tone, path.points[k] + outwards * d * path.normals[k]);
+      if (!light) continue;
+      side.mean += *light;
+      side.scatter += *light * light->transpose();
       ++count;
     }
   }

@@ -35,12 +35,9 @@ struct Strip {
   }
   // Of a point of the photograph, against the trend at the nearest of the edge's points.
   [[nodiscard]] cv::Point PlaceOf(const Vector2d& px) const {
-    const auto nearest =
-        std::min_element(edge.points.begin(), edge.points.end(), [&](const auto& a, const auto& b) {
-          return (a.trend_px - px).squaredNorm() < (b.trend_px - px).squaredNorm();
-        });
-    return {ColumnAt(static_cast<std::size_t>(nearest - edge.points.begin())),
-            RowAt(nearest->normal.dot(px - nearest->trend_px))};
+    const std::size_t nearest = NearestPoint(edge, px);
+    const LocatedEdgePoint& point = edge.points[nearest];
+    return {ColumnAt(nearest), RowAt(point.normal.dot(px - point.trend_px))};
   }
 };
 

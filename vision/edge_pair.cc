@@ -209,9 +209,7 @@ class BladeLocator {
     if (static_cast<double>(photo_.grey().total()) > kLarge && !doubtful(edges->upper) &&
         !doubtful(edges->lower))
       return;
-    constexpr int kLongSide = 1000;  // px; colours are stored at half resolution anyway
-    ReducedColours colours{photo_.DecodeColour(kLongSide, 2), 1};
-    colours.px = static_cast<double>(photo_.grey().cols) / colours.bgr.cols;
+    const ReducedColours colours = Reduced();
     const BladeEdges found = *edges;
     ParallelFor(2, [&](int blade) {
       if (blade == 0) {
@@ -324,11 +322,20 @@ class BladeLocator {
   }
 
   [[nodiscard]] const cv::Mat& Colours() {
-    std::call_once(decoded_, [this] {
-      colours_ = photo_.DecodeColour(std::max(photo_.grey().cols, photo_.grey().rows));
-    });
+    std::call_once(decoded_, [this] { colours_ = photo_.DecodeColour(LongSide()); });
     return colours_;
   }
+
+  // Colours are stored at half resolution anyway. Of a photograph that would not be reduced, the
+  // whole, decoded but once.
+  [[nodiscard]] ReducedColours Reduced() {
+    constexpr int kLongSide = 1000, kSlack = 2;  // px; times that
+    const bool whole = LongSide() + 1 < kSlack * kLongSide;
+    const cv::Mat bgr = whole ? Colours() : photo_.DecodeColour(kLongSide, kSlack);
+    return {bgr, static_cast<double>(photo_.grey().cols) / bgr.cols};
+  }
+
+  [[nodiscard]] int LongSide() const { return std::max(photo_.grey().cols, photo_.grey().rows); }
 
   const Photo& photo_;
   const ToneCurve& tone_;

@@ -149,8 +149,7 @@ Chosen InnerOne(const Pivot& pivot, Blades* blades) {
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
   LocatedEdge edge = other.edge;
   for (LocatedEdgePoint& p : edge.points) p = trace.line.Reflected(p);
-  const double pivot_sigma_px = std::sqrt(pivot.covariance_px2.trace() / 2);
-  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot_sigma_px);
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot.SigmaPx());
   edge.ambiguity = kAssumedAmbiguity;
   edge.rival_px = 0;
   edge.rival_path_px.clear();
@@ -244,11 +243,14 @@ std::optional<Relocated> LookForShape(const MirrorView& view,
   return found;
 }
 
-// By as much as the two differ.
-void DoubtVaguerOne(const Pivot& pivot, double difference, Blades* blades) {
+// A share of the blades' length, px.
+double InPx(double share, const Pivot& pivot, const Blades& blades) {
+  return share * (blades.upper.end.point_px - pivot.point_px).norm();
+}
+
+void DoubtVaguerOne(double off_px, Blades* blades) {
   const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
-  Doubt(&OneOf(blades, upper_vaguer).blade.edge,
-        difference * (blades->upper.end.point_px - pivot.point_px).norm());
+  Doubt(&OneOf(blades, upper_vaguer).blade.edge, off_px);
 }
 
 // Whether edges are unlike in shape, and if so, what can be done: the one that is seen where the
@@ -264,7 +266,7 @@ bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     Replace(upper ? *upper : *lower, kWhereMirrored, upper ? &blades->upper : &blades->lower);
     return true;
   }
-  DoubtVaguerOne(pivot, difference, blades);
+  DoubtVaguerOne(InPx(difference, pivot, *blades), blades);
   return true;
 }
 
@@ -316,12 +318,11 @@ bool RelocateLostOne(const MirrorView& view, const Pivot& pivot, Blades* blades)
   return true;
 }
 
-// Whether the edges differ by more than a pivot that lies a little aside makes them.
-bool IsBeyondPivot(const Pivot& pivot, const Blades& blades) {
+// Edges that differ by more than a pivot that lies a little aside makes them.
+void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
   constexpr double kSigmas = 3;
-  const double sigma_px = 2 * std::sqrt(pivot.covariance_px2.trace() / 2);
-  const double length_px = (blades.upper.end.point_px - pivot.point_px).norm();
-  return std::abs(pivot.asymmetry) * length_px > kSigmas * sigma_px;
+  const double differ_px = InPx(std::abs(pivot.asymmetry), pivot, *blades);
+  if (differ_px > kSigmas * 2 * pivot.SigmaPx()) DoubtVaguerOne(differ_px, blades);
 }
 
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
@@ -339,8 +340,7 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
     const bool none_moved = blades->upper.moved.empty() && blades->lower.moved.empty();
-    if (none_moved && IsBeyondPivot(pivot, *blades))
-      DoubtVaguerOne(pivot, std::abs(pivot.asymmetry), blades);
+    if (none_moved) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {
     RelocateDoubtfulOne(view, pivot, blades);
   }

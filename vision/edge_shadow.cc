@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "vision/chroma.h"
+#include "vision/pixel_light.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -22,13 +23,9 @@ std::optional<Chroma> ChromaAlong(
   for (std::size_t i = 0; i < edge.points.size(); i += kStride) {
     const LocatedEdgePoint& point = edge.points[i];
     for (double across = from; across <= to; ++across) {
-      const Vector2d at = point.trend_px + across * point.normal;
-      const cv::Point p(static_cast<int>(std::lround(at.x())),
-                        static_cast<int>(std::lround(at.y())));
-      if (!cv::Rect({0, 0}, bgr.size()).contains(p)) continue;
-      const auto& seen = bgr.at<cv::Vec3b>(p);
-      const Chroma chroma =
-          ChromaOf({tone.linear[seen[0]], tone.linear[seen[1]], tone.linear[seen[2]]});
+      const auto light = LightAt(bgr, tone, point.trend_px + across * point.normal);
+      if (!light) continue;
+      const Chroma chroma = ChromaOf(*light);
       blue.push_back(chroma[0]);
       red.push_back(chroma[1]);
     }

@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kRunStep = 0.5;  // px
+
 // Without its first part, where a shadow or the coarseness of the mask may fill the crotch.
 std::vector<Vector2d> ClearOfCrotch(const std::vector<Vector2d>& inner) {
   constexpr double kFilledShare = 0.15;
@@ -122,26 +124,28 @@ int FurthestAhead(
   return best;
 }
 
+std::vector<Run> RunsAcross(const cv::Mat& filled,
+                            const Vector2d& center,
+                            const Vector2d& across,
+                            double reach) {
+  std::vector<Run> runs;
+  bool inside = false;
+  for (double d = -reach; d <= reach; d += kRunStep) {
+    const bool set = IsSetAt(filled, center + d * across);
+    if (set && !inside) runs.push_back({d, d});
+    if (set) runs.back().to = d;
+    inside = set;
+  }
+  return runs;
+}
+
 double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& to, double t) {
   const Vector2d along = (to - from).normalized();
   const Vector2d across(-along.y(), along.x());
-  const Vector2d center = from + t * (to - from);
-  const double reach = 0.35 * (to - from).norm();
-  const auto inside = [&](const Vector2d& p) {
-    const int x = NearestPixel(p.x()), y = NearestPixel(p.y());
-    return x >= 0 && y >= 0 && x < filled.cols && y < filled.rows && filled.at<uchar>(y, x) != 0;
-  };
-  // The longest run that starts close to the line: the blade's inner side is the line, or nearly.
   double longest = 0;
-  double run = 0;
-  for (double d = -reach; d <= reach; d += 0.5) {
-    if (inside(center + d * across)) {
-      run += 0.5;
-      longest = std::max(longest, run);
-    } else {
-      run = 0;
-    }
-  }
+  for (const Run& run :
+       RunsAcross(filled, from + t * (to - from), across, kLimbReach * (to - from).norm()))
+    longest = std::max(longest, run.to - run.from + kRunStep);
   return longest;
 }
 

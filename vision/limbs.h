@@ -69,6 +69,21 @@ class Outline {
                                 const Eigen::Vector2d& origin,
                                 const Eigen::Vector2d& direction);
 
+// A piece of a line that lies in a silhouette, px along the line.
+struct Run {
+  double from = 0, to = 0;
+};
+
+// The pieces of the line through `center` along the unit vector `across`, up to `reach` px to
+// either side, to half a pixel.
+[[nodiscard]] std::vector<Run> RunsAcross(const cv::Mat& filled,
+                                          const Eigen::Vector2d& center,
+                                          const Eigen::Vector2d& across,
+                                          double reach);
+
+// How far a limb may lie off the line from its root to its end, of its length: RunsAcross's reach.
+inline constexpr double kLimbReach = 0.35;
+
 // Width of the filled silhouette across the line from-to at the share `t` of its length.
 [[nodiscard]] double WidthAcross(const cv::Mat& filled,
                                  const Eigen::Vector2d& from,

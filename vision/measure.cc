@@ -210,7 +210,7 @@ void FillPixels(const Photo& photo,
                 const Blades& blades,
                 PhotoMeasurement* result) {
   result->pivot_px = photo.DisplayedFromStored(pivot.point_px);
-  result->pivot_sigma_px = std::sqrt(pivot.covariance_px2.trace() / 2);
+  result->pivot_sigma_px = pivot.SigmaPx();
   result->pivot_source = pivot.source;
   result->axis_px = photo.DisplayedFromStored(pivot.point_px + frame.axis_px()) - result->pivot_px;
   for (const LocatedEdgePoint& p : blades.upper.used) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -24,6 +25,9 @@ struct Pivot {
   double overlap = 0, overlap_sigma = 0;                  // see EdgeOverlap
   std::optional<Screw> screw;                             // if one is seen
   Eigen::Vector2d geometry_px = Eigen::Vector2d::Zero();  // where the blades alone put it
+
+  // In any direction, root mean square.
+  [[nodiscard]] double SigmaPx() const { return std::sqrt(covariance_px2.trace() / 2); }
 };
 
 // What is known before the pivot is looked for; all in stored pixels.

@@ -127,11 +127,10 @@ Scene SceneFrom(const Candidate& found) {
 
 void RefuseUnlessUsable(const LadderResult& ladder) {
   if (!ShowsWholeBlades(ladder) && ladder.closed) {
-    throw Refused(
-        Reason::kClosed,
-        "scene: the scissors are closed, or the gap between the blades looks like the "
-        "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
-        "are open, expose less, or use another ground or softer light");
+    throw Refused(Reason::kClosed,
+                  "scene: the scissors are closed, or the gap between the blades looks like the "
+                  "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
+                  "are open, expose less, or use another ground or softer light");
   }
   if (ladder.best.pair.quality < kAcceptedQuality) {
     const std::string nearest = ladder.best.pair.doubt.empty()

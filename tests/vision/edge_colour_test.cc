@@ -164,7 +164,7 @@ TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
   EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
 }
 
-// Where the colours of the bands `from` the edge outwards, in px, put the border of OutsideABand.
+// Of the edge of OutsideABand, in light that depends on the distance from it.
 std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light) {
   Gaussian random(4);
   constexpr double kBladePx = 60, kGapPx = 60;

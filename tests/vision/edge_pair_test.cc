@@ -40,17 +40,34 @@ SceneSpec SceneWithShadowsInTheGap(double elevation_rad) {
   return spec;
 }
 
+// A rendered photograph of known scale up to where its edges are located.
+struct Seen {
+  explicit Seen(const SceneSpec& spec)
+      : photo(Measured::PhotoOf(RenderScene(spec).bgr)), scale(FindScale(photo, ScaleOf(spec))) {
+    StageLog log;
+    scene = FindScene(photo, scale.markers, {}, &log);
+  }
+
+  static ScaleOptions ScaleOf(const SceneSpec& spec) {
+    ScaleOptions options;
+    options.mm_per_px = spec.camera.mm_per_px;
+    return options;
+  }
+
+  [[nodiscard]] BladeEdges Locate() const {
+    return LocateBlades(photo, scale, scene, kUpperOnLeft);
+  }
+
+  Photo photo;
+  ScaleResult scale;
+  Scene scene;
+};
+
 TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
   constexpr double kClosePx = 0.3;
   for (const double elevation_rad : {45 * kDegree, 35 * kDegree}) {
     const SceneSpec spec = SceneWithShadowsInTheGap(elevation_rad);
-    const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
-    ScaleOptions options;
-    options.mm_per_px = spec.camera.mm_per_px;
-    const ScaleResult scale = FindScale(photo, options);
-    StageLog log;
-    const Scene scene = FindScene(photo, scale.markers, {}, &log);
-    const BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    const BladeEdges edges = Seen(spec).Locate();
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << elevation_rad;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << elevation_rad;
@@ -66,13 +83,7 @@ TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
     spec.backdrop = Backdrop::kDrape;
     spec.drape_rgb = {0.06, 0.2, 0.12};
     spec.light.shadow = shadow;
-    const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
-    ScaleOptions options;
-    options.mm_per_px = spec.camera.mm_per_px;
-    const ScaleResult scale = FindScale(photo, options);
-    StageLog log;
-    const Scene scene = FindScene(photo, scale.markers, {}, &log);
-    const BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
+    const BladeEdges edges = Seen(spec).Locate();
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
@@ -83,17 +94,12 @@ TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
 TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
   constexpr double kClosePx = 0.3, kNotchPx = 10;
   const SceneSpec spec = testing::SceneWithMarkers();
-  const Photo photo = Measured::PhotoOf(RenderScene(spec).bgr);
-  ScaleOptions options;
-  options.mm_per_px = spec.camera.mm_per_px;
-  const ScaleResult scale = FindScale(photo, options);
-  StageLog log;
-  Scene scene = FindScene(photo, scale.markers, {}, &log);
-  std::vector<Eigen::Vector2d>& trace = scene.left.inner_px;
+  Seen seen(spec);
+  std::vector<Eigen::Vector2d>& trace = seen.scene.left.inner_px;
   const Eigen::Vector2d along = (trace.back() - trace.front()).normalized();
   for (size_t i = trace.size() * 6 / 10; i < trace.size() * 8 / 10; ++i)
     trace[i] += kNotchPx * Eigen::Vector2d(along.y(), -along.x());
-  const LocatedEdge edge = LocateBlades(photo, scale, scene, kUpperOnLeft).upper;
+  const LocatedEdge edge = seen.Locate().upper;
   size_t inlying = 0;
   for (const LocatedEdgePoint& point : edge.points) inlying += point.inlier;
   EXPECT_GT(inlying, 0.95 * edge.points.size());
