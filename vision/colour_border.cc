@@ -19,6 +19,8 @@ using Eigen::Vector3d;
 // An edge is looked at in so many stretches, each averaged along its length.
 constexpr int kStretches = 12;
 
+constexpr double kToldApart = 0.2;  // chromas nearer than that are not
+
 struct Stretch {
   std::size_t first, last;  // points of the edge, `last` excluded
 };
@@ -94,7 +96,6 @@ bool LiesInShadow(const Profile& profile, double border) {
 
 std::optional<Transition> TransitionIn(const Profile& profile) {
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
-  constexpr double kToldApart = 0.2;               // chromas nearer than that are not
   constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
   constexpr double kStillBlade = 0.4;
   constexpr int kSlowest = 5;             // rows; a slower change is that of a mirrored ground
@@ -158,14 +159,15 @@ struct EdgeInColours {
     return profile;
   }
 
-  // Blades taper: where much of a blade's width is too much, less of it is looked at.
+  // Blades taper: where much of a blade's width is too much, less of it is looked at; and where a
+  // wide shadow passes for part of it, nearly all.
   [[nodiscard]] std::optional<Transition> TransitionAcross(const Stretch& stretch,
                                                            double blade_px,
                                                            double gap_px) const {
-    constexpr double kMuch = 0.65, kLess = 0.3;  // of the blade's width
+    constexpr double kMuch = 0.65, kLess = 0.3, kNearlyAll = 0.95;  // of the blade's width
     constexpr double kOfGap = 0.6;
     constexpr int kLeast = 6;  // rows
-    for (const double of_blade : {kMuch, kLess}) {
+    for (const double of_blade : {kMuch, kLess, kNearlyAll}) {
       const int inner = std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
       const int outer = std::min(inner, static_cast<int>(kOfGap * gap_px / colours.px));
       if (outer < kLeast) return std::nullopt;
@@ -210,6 +212,18 @@ double KinkOf(const std::vector<StretchOffset>& offsets) {
 }
 
 }  // namespace
+
+bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone) {
+  constexpr int kPartPx = 64;  // wide; what noise and compression colour evens out
+  for (int from = 0; from < bgr.cols; from += kPartPx) {
+    const cv::Mat part = bgr.colRange(from, std::min(from + kPartPx, bgr.cols));
+    Vector3d sum = Vector3d::Zero();
+    for (const cv::Vec3b& pixel : cv::Mat_<cv::Vec3b>(part))
+      sum += Vector3d(tone.linear[pixel[0]], tone.linear[pixel[1]], tone.linear[pixel[2]]);
+    if (ChromaOf(sum / static_cast<double>(part.total())).norm() > kToldApart) return true;
+  }
+  return false;
+}
 
 std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              const ToneCurve& tone,

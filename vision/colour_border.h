@@ -33,6 +33,9 @@ struct ColourBorder {
   double offset_px = 0;
 };
 
+// Whether some part of a picture is coloured enough to be told from grey steel.
+[[nodiscard]] bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone);
+
 // std::nullopt where blade and ground are alike in colour, or the blade mirrors the ground: colours
 // go over into each other slowly, or the ground's goes on within the edge without a shadow. other:
 // the other blade's edge; blade_px: how wide the blade is.

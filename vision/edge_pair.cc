@@ -199,15 +199,15 @@ class BladeLocator {
   }
 
   // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
-  // and bevels' lines too. Large photographs, whose colours take longer to decode than all else
-  // takes, only where grey leaves a doubt.
+  // and bevels' lines too. In large photographs, whose colours take longer to decode than all else
+  // takes, only where grey leaves a doubt, or shadows might pass for blades unseen.
   void SettleByColour(bool upper_on_left, BladeEdges* edges) {
     constexpr double kVaguePx = 0.5, kLarge = 3e6;  // px
     const auto doubtful = [&](const LocatedEdge& edge) {
       return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
     };
     if (static_cast<double>(photo_.grey().total()) > kLarge && !doubtful(edges->upper) &&
-        !doubtful(edges->lower))
+        !doubtful(edges->lower) && !ShadowsMightPass(*edges))
       return;
     const ReducedColours colours = Reduced();
     const BladeEdges found = *edges;
@@ -277,6 +277,15 @@ class BladeLocator {
     }
   }
 
+  // Whether what is taken for blade is darker than the ground, as shadows are, and the ground may
+  // have a colour that would tell them apart; the topmost rows stand for it.
+  [[nodiscard]] bool ShadowsMightPass(const BladeEdges& edges) const {
+    constexpr double kTop = 1.0 / 64;  // of the picture: a quarter of a millisecond of 12 MP
+    constexpr int kLongSide = 1000;    // px
+    const bool darker = TypicalContrast(edges.upper) > 0 || TypicalContrast(edges.lower) > 0;
+    return darker && ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone_);
+  }
+
   // In the colours, and in grey, which is sharper, where that shows an edge at the same place.
   [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess) {
     constexpr double kColoursOffPx = 2;
@@ -329,9 +338,9 @@ class BladeLocator {
   // Colours are stored at half resolution anyway. Of a photograph that would not be reduced, the
   // whole, decoded but once.
   [[nodiscard]] ReducedColours Reduced() {
-    constexpr int kLongSide = 1000, kSlack = 2;  // px; times that
-    const bool whole = LongSide() + 1 < kSlack * kLongSide;
-    const cv::Mat bgr = whole ? Colours() : photo_.DecodeColour(kLongSide, kSlack);
+    constexpr int kSmallest = 1000;  // px, of the longest side
+    const int half = (LongSide() + 1) / 2;
+    const cv::Mat bgr = half < kSmallest ? Colours() : photo_.DecodeColour(half);
     return {bgr, static_cast<double>(photo_.grey().cols) / bgr.cols};
   }
 

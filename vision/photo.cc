@@ -153,6 +153,15 @@ cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   return small;
 }
 
+cv::Mat Photo::DecodeTopColour(double share, int max_side) const {
+  if (!(share > 0 && share <= 1))
+    throw std::invalid_argument("Photo::DecodeTopColour: share must be in (0, 1]");
+  const cv::Mat colour =
+      Decode(bytes_, {.colour = true, .long_side = max_side, .top_share = share}).pixels;
+  const double rows = share * colour.cols * grey_.rows / grey_.cols;
+  return colour.rowRange(0, std::clamp(static_cast<int>(std::ceil(rows)), 1, colour.rows));
+}
+
 int Photo::displayed_width() const { return metadata_.orientation < 5 ? grey_.cols : grey_.rows; }
 
 int Photo::displayed_height() const { return metadata_.orientation < 5 ? grey_.rows : grey_.cols; }

@@ -13,7 +13,8 @@ struct DecodeOptions {
   bool colour = false;  // CV_8UC3 BGR instead of CV_8UC1 luma
   int long_side =
       0;  // a codec may decode smaller as long as the longest side keeps this; 0: full size
-  int num_threads = 1;  // a codec may use as many; the pixels are the same
+  int num_threads = 1;   // a codec may use as many; the pixels are the same
+  double top_share = 1;  // of the rows, in (0, 1]: a codec may leave off those below
 };
 
 // What a file says beside its pixels, as far as its container knows.

@@ -7,6 +7,7 @@
 #include <jpeglib.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "vision/parallel.h"
@@ -127,9 +128,9 @@ cv::Mat JpegReader::Decode(const DecodeOptions& options) {
   const PixelLayout layout = ChooseLayout(options.colour);
   ChooseSize(options.long_side);
   Guarded([&] { jpeg_start_decompress(&info_); });
-  cv::Mat stored = NewPicture(
-      cv::Size(static_cast<int>(info_.output_width), static_cast<int>(info_.output_height)),
-      CV_8UC(ChannelsOf(layout)));
+  const int rows = static_cast<int>(std::ceil(options.top_share * info_.output_height));
+  cv::Mat stored =
+      NewPicture(cv::Size(static_cast<int>(info_.output_width), rows), CV_8UC(ChannelsOf(layout)));
   ReadRows(stored.rows, &stored);
   return ConvertPixels(stored, layout, options.colour);
 }

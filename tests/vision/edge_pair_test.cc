@@ -74,19 +74,46 @@ TEST(LocateBlades, TakesDarkBandsAlongBothBladesForShadows) {
   }
 }
 
-// In their shadows the drape is as dark as the blades: grey shows the shadows' borders alone.
+// In their shadows the drape is as dark as the blades: grey shows the shadows' borders alone, and
+// clearly.
+SceneSpec BlackBladesInSunOnDrape(double shadow) {
+  SceneSpec spec = SceneWithShadowsInTheGap(35 * kDegree);
+  spec.finish = Finish::kBlack;
+  spec.backdrop = Backdrop::kDrape;
+  spec.drape_rgb = {0.06, 0.2, 0.12};
+  spec.light.shadow = shadow;
+  return spec;
+}
+
 TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
   constexpr double kClosePx = 0.3;
   for (const double shadow : {0.78, 0.8}) {
-    SceneSpec spec = SceneWithShadowsInTheGap(35 * kDegree);
-    spec.finish = Finish::kBlack;
-    spec.backdrop = Backdrop::kDrape;
-    spec.drape_rgb = {0.06, 0.2, 0.12};
-    spec.light.shadow = shadow;
+    const SceneSpec spec = BlackBladesInSunOnDrape(shadow);
     const BladeEdges edges = Seen(spec).Locate();
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
+  }
+}
+
+// There grey leaves no doubt: the shadow's border is as clear as an edge. Lower sun throws shadows
+// more than half as wide as the blades.
+TEST(LocateBlades, TakesTheColoursOfLargePhotographsToo) {
+  constexpr double kClosePx = 0.3, kLarger = 1.5;
+  for (const auto& [elevation_rad, theta_rad] :
+       {std::pair(35 * kDegree, 45 * kDegree), std::pair(25 * kDegree, 20 * kDegree)}) {
+    SceneSpec spec = BlackBladesInSunOnDrape(0.7);
+    spec.light.direction_rad = 135 * kDegree;
+    spec.light.elevation_rad = elevation_rad;
+    spec.theta_rad = theta_rad;
+    spec.width = static_cast<int>(kLarger * spec.width);
+    spec.height = static_cast<int>(kLarger * spec.height);
+    spec.camera.mm_per_px /= kLarger;
+    spec.camera.blur_px *= kLarger;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << elevation_rad;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << elevation_rad;
   }
 }
 

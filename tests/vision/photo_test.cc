@@ -305,6 +305,21 @@ TEST(Photo, DecodesColourLargerThanAskedOnlyWithinTheSlack) {
   EXPECT_EQ(photo.DecodeColour(1000, 1.25).cols, 1000);
 }
 
+TEST(Photo, DecodesTheColourOfItsTop) {
+  const cv::Mat picture = Gradient(1600, 1200);
+  const fs::path png = ProcessFolder() / "top.png";
+  WritePng(png, picture);
+  for (const fs::path& path : {Write("top.jpg", Jpeg(picture, {JCS_RGB, 3, 0, ""})), png}) {
+    const Photo photo = Photo::Load(path);
+    const cv::Mat all = photo.DecodeColour(800), top = photo.DecodeTopColour(0.1, 800);
+    EXPECT_EQ(top.rows * 10, 1200 * top.cols / 1600) << path;
+    cv::Mat reduced;
+    cv::resize(top, reduced, {800, 60}, 0, 0, cv::INTER_AREA);
+    EXPECT_LE(cv::norm(reduced, all.rowRange(0, 60), cv::NORM_INF), 1) << path;
+    EXPECT_THROW(static_cast<void>(photo.DecodeTopColour(0, 800)), std::invalid_argument);
+  }
+}
+
 TEST(WritePng, ComesBackAsItWas) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 300), cv::Size(301, 5)}) {
     for (const int type : {CV_8UC1, CV_8UC3}) {
