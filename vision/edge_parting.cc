@@ -63,17 +63,23 @@ Gap GapBetween(const Profile& upper, const Profile& lower) {
   return gap;
 }
 
-// The straight line that the gap follows over its middle, clear of crotch and tips, and how far
-// the gap is off it everywhere.
+// The line that the gap follows over its middle, clear of crotch and tips, and how far the gap is
+// off it everywhere.
 struct Trend {
-  double origin = 0, value = 0, slope = 0;
+  double origin = 0, length = 1;
+  Eigen::Vector3d powers = Eigen::Vector3d::Zero();  // of the place from the origin, in lengths
   std::vector<double> off;
   double scatter = 0;  // over the middle
 
-  [[nodiscard]] double At(double along) const { return value + slope * (along - origin); }
+  [[nodiscard]] Eigen::Vector3d RowAt(double along) const {
+    const double t = (along - origin) / length;
+    return {1, t, t * t};
+  }
+  [[nodiscard]] double At(double along) const { return powers.dot(RowAt(along)); }
 };
 
-Trend TrendOf(const Gap& gap) {
+// A straight line (terms: 2) or a parabola (3).
+Trend TrendOf(const Gap& gap, Eigen::Index terms) {
   constexpr double kFrom = 0.2, kTo = 0.7;  // shares of the gap's length
   constexpr int kRounds = 4;
   constexpr double kFar = 3;  // scatters
@@ -81,21 +87,20 @@ Trend TrendOf(const Gap& gap) {
     return static_cast<std::size_t>(share * static_cast<double>(gap.along.size()));
   };
   Trend trend;
-  trend.origin = gap.along[at(kFrom)];
+  trend.origin = gap.along[at(0.5 * (kFrom + kTo))];
+  trend.length = gap.along.back() - gap.along.front();
   trend.scatter = std::numeric_limits<double>::infinity();
   trend.off.assign(gap.along.size(), 0.0);
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-    Vector2d right = Vector2d::Zero();
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
     for (std::size_t i = at(kFrom); i < at(kTo); ++i) {
       if (std::abs(trend.off[i]) > kFar * trend.scatter) continue;
-      const Vector2d row(1, gap.along[i] - trend.origin);
+      const Eigen::Vector3d row = trend.RowAt(gap.along[i]);
       normal += row * row.transpose();
       right += row * gap.apart[i];
     }
-    const Vector2d line = normal.ldlt().solve(right);
-    trend.value = line.x();
-    trend.slope = line.y();
+    trend.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(right.head(terms));
     for (std::size_t i = 0; i < gap.along.size(); ++i)
       trend.off[i] = gap.apart[i] - trend.At(gap.along[i]);
     const auto middle = [&](double share) {
@@ -161,18 +166,23 @@ class Comparison {
     gap_ = GapBetween(upper_, lower_);
   }
 
-  // Marks the points beyond as strays.
+  // Marks the points beyond as strays. The gap between blades that are bent to one side, which are
+  // no mirror images, follows a parabola.
   WasCut CutEnds() {
-    constexpr std::size_t kFewest = 60;  // points; fewer have no middle to go by
-    constexpr double kTolerancePx = 1, kScatters = 4;
+    constexpr std::size_t kFewest = 60;                // points; fewer have no middle to go by
+    constexpr double kCloser = 1.0 / 3, kFewer = 0.5;  // of the straight line's scatter and strays
     if (gap_.along.size() < kFewest) return {};
-    trend_ = TrendOf(gap_);
-    const Vector2d pivot_px = line_.map.ImageFromPlane(line_.pivot);
-    const double per_px = std::sqrt(std::abs(line_.map.JacobianAt(pivot_px).determinant()));
-    const double tolerance = kTolerancePx * per_px + kScatters * trend_.scatter;
-    const std::vector<double> off = Smoothed(trend_.off);
-    const WasCut tip = CutTip(CountOff(off.rbegin(), off.rend(), tolerance));
-    const WasCut crotch = CutCrotch(CountOff(off.begin(), off.end(), tolerance));
+    trend_ = TrendOf(gap_, 2);
+    Parting parting = PartingFrom(trend_);
+    if (parting.Count() == 0) return {};
+    const Trend bent = TrendOf(gap_, 3);
+    const Parting from_bent = PartingFrom(bent);
+    if (bent.scatter < kCloser * trend_.scatter && from_bent.Count() < kFewer * parting.Count()) {
+      trend_ = bent;
+      parting = from_bent;
+    }
+    const WasCut tip = CutTip(parting.tip);
+    const WasCut crotch = CutCrotch(parting.crotch);
     TakeProfiles();
     return {tip.upper || crotch.upper, tip.lower || crotch.lower};
   }
@@ -187,6 +197,21 @@ class Comparison {
   void TakeProfiles() {
     upper_ = ProfileOf(line_, blades_.upper);
     lower_ = ProfileOf(line_, blades_.lower);
+  }
+
+  // How many places of the gap at either end lie off a trend.
+  struct Parting {
+    std::size_t tip = 0, crotch = 0;
+    [[nodiscard]] double Count() const { return static_cast<double>(tip + crotch); }
+  };
+  [[nodiscard]] Parting PartingFrom(const Trend& trend) const {
+    constexpr double kTolerancePx = 1, kScatters = 4;
+    const Vector2d pivot_px = line_.map.ImageFromPlane(line_.pivot);
+    const double per_px = std::sqrt(std::abs(line_.map.JacobianAt(pivot_px).determinant()));
+    const double tolerance = kTolerancePx * per_px + kScatters * trend.scatter;
+    const std::vector<double> off = Smoothed(trend.off);
+    return {CountOff(off.rbegin(), off.rend(), tolerance),
+            CountOff(off.begin(), off.end(), tolerance)};
   }
 
   // Enough to be seen, and not so much that what is left has no middle.

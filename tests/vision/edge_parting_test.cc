@@ -118,6 +118,20 @@ TEST(CutWhereEdgesPart, LeavesEdgesThatMirrorEachOther) {
   EXPECT_EQ(PointsOf(measured.blades.lower), lower);
 }
 
+// "Curved" scissors: both edges keep to their own course, one hollow, the other round.
+TEST(CutWhereEdgesPart, LeavesBladesBentToOneSide) {
+  for (const double curve_mm : {0.5, 1.0, -1.0}) {
+    SceneSpec spec = SceneWithMarkers();
+    spec.scissors.curve_mm = curve_mm;
+    Measured measured{spec};
+    const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
+    const std::vector<Vector2d> lower = PointsOf(measured.blades.lower);
+    CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+    EXPECT_EQ(PointsOf(measured.blades.upper), upper) << curve_mm;
+    EXPECT_EQ(PointsOf(measured.blades.lower), lower) << curve_mm;
+  }
+}
+
 // One edge as a whole aside of its place: nobody knows which, let alone whose end is astray.
 TEST(CutWhereEdgesPart, LeavesEdgesThatAreNoMirrorImages) {
   constexpr double kAsidePx = 16;
