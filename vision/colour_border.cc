@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "vision/chroma.h"
@@ -72,10 +73,12 @@ double HalfWay(const Profile& profile, const Vector3d& apart, double level, int 
 struct Transition {
   double of_colour = 0, of_blades_light = 0, of_grounds_light = 0;
 
-  // The nearest to the edge of the three; 0 if they lie on both sides of it.
-  [[nodiscard]] double Nearest() const {
-    const auto [low, high] = std::minmax({of_colour, of_blades_light, of_grounds_light});
-    return low > 0 ? low : std::min(high, 0.0);
+  // How far off the edge it lies for certain: inwards, the middle one of the three, as a shadow
+  // beside a blade spreads them that way; outwards, the nearest. 0 if not for certain.
+  [[nodiscard]] double Certain() const {
+    std::array three{of_colour, of_blades_light, of_grounds_light};
+    std::sort(three.begin(), three.end());
+    return three[1] < 0 ? three[1] : std::max(three[0], 0.0);
   }
 };
 
@@ -127,7 +130,7 @@ std::optional<Transition> TransitionIn(const Profile& profile) {
   const Transition found{0.5 * (last_ground + first_blade + 1),
                          HalfWay(profile, blades, blades_level, from, to),
                          HalfWay(profile, grounds, grounds_level, from, to)};
-  if (found.Nearest() < 0 && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
+  if (found.Certain() < 0 && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
   return found;
 }
 
@@ -235,7 +238,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
   const EdgeInColours seen{colours, tone, edge};
   std::vector<StretchOffset> offsets;
-  std::vector<double> nearest;
+  std::vector<double> certain;
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
     const Vector2d middle = edge.points[(stretch.first + stretch.last) / 2].trend_px;
@@ -243,10 +246,10 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
     const auto transition = seen.TransitionAcross(stretch, blade_px, gap_px);
     if (!transition) continue;
     offsets.push_back({k, colours.px * transition->of_colour});
-    nearest.push_back(colours.px * transition->Nearest());
+    certain.push_back(colours.px * transition->Certain());
   }
   if (offsets.size() < kFewest || KinkOf(offsets) > kSmooth * colours.px) return std::nullopt;
-  return ColourBorder{Moved(edge, offsets), Median(std::move(nearest))};
+  return ColourBorder{Moved(edge, offsets), Median(std::move(certain))};
 }
 
 }  // namespace bladecurve

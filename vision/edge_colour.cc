@@ -176,8 +176,12 @@ double GreySeparation(const cv::Mat& grey, const ToneCurve& tone, const EdgeGues
   return std::abs(sides.ground.mean[0] - sides.blade.mean[0]) / std::sqrt(sides.Scatter()(0, 0));
 }
 
-ColourView ViewWhereSidesDiffer(const cv::Mat& bgr, const ToneCurve& tone, const EdgeGuess& guess) {
-  const Sides sides = SampleSides(bgr, tone, guess);
+ColourView ViewWhereSidesDiffer(const cv::Mat& bgr,
+                                const ToneCurve& tone,
+                                const EdgeGuess& guess,
+                                double shade) {
+  Sides sides = SampleSides(bgr, tone, guess);
+  sides.ground.scatter += shade * shade * sides.ground.mean * sides.ground.mean.transpose();
   const Vector3d weights = sides.Scatter().ldlt().solve(sides.ground.mean - sides.blade.mean);
   const cv::Rect around = SurroundingsOf(guess, bgr.size());
   ColourView view;

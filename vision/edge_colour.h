@@ -24,10 +24,12 @@ struct ColourView {
   double separation = 0;            // as GreySeparation's
 };
 
-// bgr: CV_8UC3, the whole photograph at full resolution.
+// bgr: CV_8UC3, the whole photograph at full resolution. shade: by what share the background's
+// light may vary from shadows that lie beside the edge; the mixture shows them the less.
 [[nodiscard]] ColourView ViewWhereSidesDiffer(const cv::Mat& bgr,
                                               const ToneCurve& tone,
-                                              const EdgeGuess& guess);
+                                              const EdgeGuess& guess,
+                                              double shade = 0);
 
 // LocateEdge in that view; points in the photograph's pixels. Throws as LocateEdge does.
 [[nodiscard]] LocatedEdge LocateEdgeInView(const ColourView& view, const EdgeGuess& guess);

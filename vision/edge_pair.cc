@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -117,6 +118,17 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   std::vector<Vector2d> path;
   for (const LocatedEdgePoint& point : edge.points) path.push_back(point.trend_px);
   return path;
+}
+
+double MedianDistance(const LocatedEdge& edge, const std::vector<Vector2d>& path_px) {
+  std::vector<double> distances;
+  for (const LocatedEdgePoint& p : edge.points) {
+    double least_px2 = std::numeric_limits<double>::infinity();
+    for (const Vector2d& q : path_px)
+      least_px2 = std::min(least_px2, (q - p.trend_px).squaredNorm());
+    distances.push_back(std::sqrt(least_px2));
+  }
+  return Median(std::move(distances));
 }
 
 LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
@@ -258,23 +270,27 @@ class BladeLocator {
     return edge;
   }
 
-  // From a line at which only light changes to the one at which the ground's colour ends.
+  // From a line at which only light changes to the one at which the ground's colour ends; where
+  // that line draws the edge back to itself, in colours that show shadows less.
   void LeaveLightAlone(const ReducedColours& colours,
                        const LocatedEdge& other,
                        bool left,
                        LocatedEdge* edge) {
-    constexpr double kFar = 1.5;  // pixels of the reduced picture
-    constexpr double kSearchPx = 4;
+    constexpr double kFarPx = 1.3, kSearchPx = 4;
+    constexpr double kWay = 0.5;    // of the way there, at least
+    constexpr double kShade = 0.5;  // of the light
     const double width_px = (left ? scene_.left : scene_.right).width_px;
     const auto border = FindColourBorder(colours, tone_, *edge, other, width_px);
-    if (!border || std::abs(border->offset_px) < kFar * colours.px) return;
+    if (!border || std::abs(border->offset_px) < kFarPx) return;
     const EdgeGuess guess{border->path_px, left, kSearchPx};
-    std::optional<LocatedEdge> again = InColoursThenGrey(guess);
-    if (again) {
+    const std::vector<Vector2d> old_px = TrendOf(*edge);
+    for (const double shade : {0.0, kShade}) {
+      std::optional<LocatedEdge> again = InColoursThenGrey(guess, shade);
+      if (!again || MedianDistance(*again, old_px) < kWay * std::abs(border->offset_px)) continue;
       *edge = *std::move(again);
-    } else {
-      Doubt(edge, std::abs(border->offset_px));
+      return;
     }
+    Doubt(edge, std::abs(border->offset_px));
   }
 
   // Whether what is taken for blade is darker than the ground, as shadows are, and the ground may
@@ -287,10 +303,11 @@ class BladeLocator {
   }
 
   // In the colours, and in grey, which is sharper, where that shows an edge at the same place.
-  [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess) {
+  [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess, double shade) {
     constexpr double kColoursOffPx = 2;
-    auto coloured = UnlessRefused(
-        [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone_, guess), guess); });
+    auto coloured = UnlessRefused([&] {
+      return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone_, guess, shade), guess);
+    });
     if (!coloured) return std::nullopt;
     const EdgeGuess close{TrendOf(*coloured), guess.blade_on_left, kColoursOffPx};
     auto grey = UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, close, options_); });

@@ -117,6 +117,21 @@ TEST(LocateBlades, TakesTheColoursOfLargePhotographsToo) {
   }
 }
 
+// As wide as the blur the shadow is no line of its own, and draws the edge to its border.
+TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
+  constexpr double kClosePx = 0.3;
+  for (const double theta_rad : {20 * kDegree, 45 * kDegree}) {
+    SceneSpec spec = BlackBladesInSunOnDrape(0.9);
+    spec.light.direction_rad = 135 * kDegree;
+    spec.light.elevation_rad = 70 * kDegree;
+    spec.theta_rad = theta_rad;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << theta_rad;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << theta_rad;
+  }
+}
+
 // Scene finding may take a piece of the background for blade: its trace has a notch then.
 TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
   constexpr double kClosePx = 0.3, kNotchPx = 10;
