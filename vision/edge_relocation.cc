@@ -326,6 +326,7 @@ void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
 }
 
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
     // A slanted view may part them as well; but then nothing is seen where they would agree.

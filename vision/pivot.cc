@@ -42,9 +42,11 @@ Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMi
           mirror.sine * behind.sigma / length};
 }
 
-// The edges about the pivot.
+// The edges about the pivot. Those of bent blades are no mirror images, and nothing is said of
+// them.
 void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
-  pivot->asymmetry = EdgeAsymmetry(search.edges, pivot->point_px);
+  pivot->bent = pivot->source != "geometry" && AreBentToOneSide(search.edges, pivot->point_px);
+  pivot->asymmetry = pivot->bent ? 0 : EdgeAsymmetry(search.edges, pivot->point_px);
   const Estimate overlap = OverlapSeen(*pivot, search, mirror);
   pivot->overlap = overlap.value;
   pivot->overlap_sigma = overlap.sigma;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot_geometry.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -47,6 +48,59 @@ Passing PassingBy(const EdgePair& edges, const Vector2d& pivot_px) {
   const double per_length = 1 / std::max(1.0, length);
   return {-per_length * Cross(a.direction, pivot_px - a.point),
           per_length * Cross(b.direction, pivot_px - b.point)};
+}
+
+// An edge about a line through the pivot: places along it and distances to the edge's own side of
+// it, over the length of the blades.
+struct AboutLine {
+  std::vector<double> along, aside;
+};
+
+AboutLine EdgeAbout(const std::vector<Vector2d>& edge,
+                    const Vector2d& pivot_px,
+                    const Vector2d& direction,
+                    double side,
+                    double length_px) {
+  AboutLine about;
+  for (const Vector2d& p : edge) {
+    const Vector2d offset = (p - pivot_px) / length_px;
+    const double along = offset.dot(direction);
+    if (!about.along.empty() && along <= about.along.back()) continue;
+    about.along.push_back(along);
+    about.aside.push_back(side * Cross(direction, offset));
+  }
+  return about;
+}
+
+// How much further than the right edge the left one lies from the line, as a polynomial of the
+// place along it.
+struct Difference {
+  Eigen::Vector3d powers = Eigen::Vector3d::Zero();
+  double scatter = 0;
+};
+
+Difference FitDifference(const AboutLine& left, const AboutLine& right, Eigen::Index terms) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moments = Eigen::Vector3d::Zero();
+  double squares = 0, count = 0;
+  for (std::size_t i = 0; i < left.along.size(); ++i) {
+    const double x = left.along[i];
+    const auto after = std::lower_bound(right.along.begin(), right.along.end(), x);
+    if (after == right.along.begin() || after == right.along.end()) continue;
+    const auto k = static_cast<std::size_t>(after - right.along.begin());
+    const double t = (x - right.along[k - 1]) / (right.along[k] - right.along[k - 1]);
+    const double differ = left.aside[i] - std::lerp(right.aside[k - 1], right.aside[k], t);
+    const Eigen::Vector3d row(1, x, x * x);
+    normal += row * row.transpose();
+    moments += differ * row;
+    squares += differ * differ;
+    ++count;
+  }
+  Difference fit;
+  if (count <= static_cast<double>(terms)) return fit;
+  fit.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(moments.head(terms));
+  fit.scatter = std::sqrt(std::max(0.0, squares - fit.powers.dot(moments)) / count);
+  return fit;
 }
 
 // What is left of a normal distribution between two limits: its mean and standard deviation. Where
@@ -101,6 +155,27 @@ EdgeMirror MirrorOf(const EdgePair& edges) {
 double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
   const Passing by = PassingBy(edges, pivot_px);
   return by.left - by.right;
+}
+
+bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
+  constexpr double kLeast = 0.006;                // of the length; less is how blades are made
+  constexpr double kCloser = 1.0 / 3;             // of the scatter about a straight line
+  constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola
+  constexpr double kBehind = -0.05, kHeel = 0.3;  // of the length, from the pivot
+  const Vector2d left = edges.left_px.back() - pivot_px, right = edges.right_px.back() - pivot_px;
+  const double length_px = std::max(1.0, 0.5 * (left.norm() + right.norm()));
+  const Vector2d direction = (left.normalized() + right.normalized()).normalized();
+  const double side = std::copysign(1.0, Cross(direction, left));
+  const AboutLine of_left = EdgeAbout(edges.left_px, pivot_px, direction, side, length_px);
+  const AboutLine of_right = EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px);
+  const Difference straight = FitDifference(of_left, of_right, 2);
+  const Difference bent = FitDifference(of_left, of_right, 3);
+  const double square = bent.powers[2];
+  if (std::abs(square) < kLeast || bent.scatter > std::min(kCloser * straight.scatter, kSmooth))
+    return false;
+  // By the line's choice the edges are alike at the ends, the other root is where the bend begins.
+  const double begins = bent.powers[0] / square;
+  return begins > kBehind && begins < kHeel;
 }
 
 double EdgeOverlap(const EdgePair& edges, const Vector2d& pivot_px) {

@@ -29,6 +29,11 @@ struct EdgeMirror {
 // (Lister, Potts) do not.
 [[nodiscard]] double EdgeAsymmetry(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
+// Whether both blades are bent to one side, as those of "curved" scissors may be: what their edges
+// differ by, about the line between their ends, is a parabola from the ends to about the heels. One
+// that is something else's border parts from its place otherwise.
+[[nodiscard]] bool AreBentToOneSide(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
+
 // How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two
 // distances over the length of the blades. Blades that shear overlap by 0.055 to 0.125 (Mayo,
 // Metzenbaum, iris; straight and curved); the jaws of clamps, forceps and needle holders meet, and

@@ -34,6 +34,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
   warn_if(scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted,
           "blades_asymmetric");
+  warn_if(pivot.bent, "blades_bent");  // neither edge confirms the other
   warn_if(blades.ends_contradict, "ends_unlike");
   warn_if(IsAmbiguous(blades.upper.edge), "upper_edge_ambiguous");
   warn_if(IsAmbiguous(blades.lower.edge), "lower_edge_ambiguous");

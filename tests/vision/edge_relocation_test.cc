@@ -285,6 +285,26 @@ TEST(RelocateUnlikeEdges, FindsALostEdgeWithoutMarkers) {
   EXPECT_GT(FarFrom(both_unclear.truth.lower, both_unclear.blades.lower.used), kAstrayPx / 2);
 }
 
+// They are no mirror images, and neither says where the other is.
+TEST(RelocateUnlikeEdges, LeavesBladesBentToOneSide) {
+  for (const double curve_mm : {1.0, -1.0}) {
+    SceneSpec spec = SceneWithMarkers();
+    spec.scissors.curve_mm = curve_mm;
+    Measured measured{spec};
+    const auto edges = [&] { return PairOf(measured.blades.upper, measured.blades.lower); };
+    const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
+    const std::vector<Vector2d> lower = PointsOf(measured.blades.lower);
+    CompareEdges(measured.scene, edges(), &measured.pivot);
+    EXPECT_TRUE(measured.pivot.bent) << curve_mm;
+    EXPECT_EQ(measured.pivot.asymmetry, 0) << curve_mm;
+    const double sigma_px = measured.blades.upper.edge.common_sigma_px;
+    Relocate(&measured);
+    EXPECT_EQ(PointsOf(measured.blades.upper), upper) << curve_mm;
+    EXPECT_EQ(PointsOf(measured.blades.lower), lower) << curve_mm;
+    EXPECT_EQ(measured.blades.upper.edge.common_sigma_px, sigma_px) << curve_mm;
+  }
+}
+
 // Without markers nobody knows from where the scissors are seen.
 TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   Measured measured{SceneWithMarkers()};

@@ -64,6 +64,44 @@ TEST(EdgeAsymmetry, ChangesByTwiceThePivotsShareAside) {
   EXPECT_NEAR(EdgeOverlap(edges, aside), 0.08, kClose);
 }
 
+// Both towards the left by a parabola that begins `from` of the length off the pivot and is
+// highest, `bow` of the length, half way to the tips.
+EdgePair Bent(EdgePair edges, double bow, double from) {
+  for (std::vector<Vector2d>* edge : {&edges.left_px, &edges.right_px}) {
+    for (Vector2d& p : *edge) {
+      const double along = (p - kPivot).norm() / kLength;
+      const double share = (along - from) / (1 - from);
+      p.y() -= 4 * bow * share * (1 - share) * kLength;
+    }
+  }
+  return edges;
+}
+
+TEST(AreBentToOneSide, SeesParabolasFromTheHeels) {
+  const EdgePair edges = Edges(30 * kDegree, 0.08);
+  EXPECT_FALSE(AreBentToOneSide(edges, kPivot));
+  for (const double bow : {0.01, -0.01, 0.03, -0.03}) {
+    for (const double from : {0.0, 0.12, 0.25})
+      EXPECT_TRUE(AreBentToOneSide(Bent(edges, bow, from), kPivot)) << bow << " " << from;
+  }
+}
+
+// As lines of shadows and bevels are: aside by as much everywhere, or the more the further from the
+// tip, or only on a part.
+TEST(AreBentToOneSide, SeesNoneWhereOneEdgeIsAnotherLine) {
+  const EdgePair edges = Edges(30 * kDegree, 0.08);
+  const auto aside = [&](const auto& offset) {
+    EdgePair other = edges;
+    for (Vector2d& p : other.left_px)
+      p.y() += kLength * offset(1 - (p - kPivot).norm() / kLength);  // of the way back to the pivot
+    return AreBentToOneSide(other, kPivot);
+  };
+  EXPECT_FALSE(aside([](double) { return 0.02; }));
+  EXPECT_FALSE(aside([](double back) { return 0.04 * back; }));
+  EXPECT_FALSE(aside([](double back) { return 0.1 * back * back; }));
+  EXPECT_FALSE(aside([](double back) { return back < 0.3 ? 0.02 : 0; }));
+}
+
 TEST(MirrorOf, FindsWhereTheEdgesCrossAndTheirLine) {
   constexpr double kClose = 0.02;  // px
   const EdgeMirror mirror = MirrorOf(Edges(30 * kDegree, 0.08));

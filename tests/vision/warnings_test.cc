@@ -66,6 +66,9 @@ TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
   EXPECT_TRUE(Warns(measured, "blades_asymmetric"));
   measured.scale.sheet.reset();  // a slanted view parts edges as well
   EXPECT_FALSE(Warns(measured, "blades_asymmetric"));
+  EXPECT_FALSE(Warns(measured, "blades_bent"));
+  measured.pivot.bent = true;
+  EXPECT_TRUE(Warns(measured, "blades_bent"));
 }
 
 // A bevel may be as bright as the ground on part of the way; then another line goes on.
