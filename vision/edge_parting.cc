@@ -11,6 +11,7 @@
 
 #include "vision/consistency.h"
 #include "vision/edge_curve.h"
+#include "vision/edge_gap.h"
 #include "vision/refused.h"
 #include "vision/robust_statistics.h"
 
@@ -19,10 +20,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-// An edge's inlying points about the mirror line: places along it, distances from it towards the
-// blade's own side. In units of the plane map.
-struct Profile {
-  std::vector<double> along, aside;
+// An edge's inlying points about the mirror line, in units of the plane map.
+struct Profile : EdgeAboutLine {
   std::vector<std::size_t> index;  // of the point in the edge
   double side = 1;                 // of the line, left positive
 };
@@ -45,24 +44,6 @@ Profile ProfileOf(const MirrorLine& line, const LocatedBlade& blade) {
   return profile;
 }
 
-// The upper edge's distance from the mirror line less the lower one's, along the line.
-struct Gap {
-  std::vector<double> along, apart;
-};
-
-Gap GapBetween(const Profile& upper, const Profile& lower) {
-  Gap gap;
-  for (std::size_t i = 0; i < upper.along.size(); ++i) {
-    const auto after = std::lower_bound(lower.along.begin(), lower.along.end(), upper.along[i]);
-    if (after == lower.along.begin() || after == lower.along.end()) continue;
-    const auto k = static_cast<std::size_t>(after - lower.along.begin());
-    const double t = (upper.along[i] - lower.along[k - 1]) / (lower.along[k] - lower.along[k - 1]);
-    gap.along.push_back(upper.along[i]);
-    gap.apart.push_back(upper.aside[i] - std::lerp(lower.aside[k - 1], lower.aside[k], t));
-  }
-  return gap;
-}
-
 // The line that the gap follows over its middle, clear of crotch and tips, and how far the gap is
 // off it everywhere.
 struct Trend {
@@ -79,7 +60,7 @@ struct Trend {
 };
 
 // A straight line (terms: 2) or a parabola (3).
-Trend TrendOf(const Gap& gap, Eigen::Index terms) {
+Trend TrendOf(const EdgeGap& gap, Eigen::Index terms) {
   constexpr double kFrom = 0.2, kTo = 0.7;  // shares of the gap's length
   constexpr int kRounds = 4;
   constexpr double kFar = 3;  // scatters
@@ -278,14 +259,14 @@ class Comparison {
   MirrorLine line_;
   Blades& blades_;
   Profile upper_, lower_;
-  Gap gap_;
+  EdgeGap gap_;
   Trend trend_;
 };
 
 }  // namespace
 
 void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  if (!AssumesMirror(view, pivot)) return;
+  if (!AssumesMirror(view, pivot) || pivot.bent) return;
   const bool may_agree =
       KnowsMirror(view, pivot) ? !AreUnlike(pivot.asymmetry) : AreAlike(pivot.asymmetry);
   if (!may_agree) return;

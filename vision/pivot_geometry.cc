@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "vision/cross.h"
+#include "vision/edge_gap.h"
 
 namespace bladecurve {
 namespace {
@@ -50,18 +51,13 @@ Passing PassingBy(const EdgePair& edges, const Vector2d& pivot_px) {
           per_length * Cross(b.direction, pivot_px - b.point)};
 }
 
-// An edge about a line through the pivot: places along it and distances to the edge's own side of
-// it, over the length of the blades.
-struct AboutLine {
-  std::vector<double> along, aside;
-};
-
-AboutLine EdgeAbout(const std::vector<Vector2d>& edge,
-                    const Vector2d& pivot_px,
-                    const Vector2d& direction,
-                    double side,
-                    double length_px) {
-  AboutLine about;
+// About a line through the pivot, over the length of the blades.
+EdgeAboutLine EdgeAbout(const std::vector<Vector2d>& edge,
+                        const Vector2d& pivot_px,
+                        const Vector2d& direction,
+                        double side,
+                        double length_px) {
+  EdgeAboutLine about;
   for (const Vector2d& p : edge) {
     const Vector2d offset = (p - pivot_px) / length_px;
     const double along = offset.dot(direction);
@@ -72,35 +68,28 @@ AboutLine EdgeAbout(const std::vector<Vector2d>& edge,
   return about;
 }
 
-// How much further than the right edge the left one lies from the line, as a polynomial of the
-// place along it.
-struct Difference {
+// A polynomial of the place along the line.
+struct Course {
   Eigen::Vector3d powers = Eigen::Vector3d::Zero();
   double scatter = 0;
 };
 
-Difference FitDifference(const AboutLine& left, const AboutLine& right, Eigen::Index terms) {
+// By least squares: a straight line (terms: 2) or a parabola (3).
+Course CourseOf(const EdgeGap& gap, Eigen::Index terms) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d moments = Eigen::Vector3d::Zero();
-  double squares = 0, count = 0;
-  for (std::size_t i = 0; i < left.along.size(); ++i) {
-    const double x = left.along[i];
-    const auto after = std::lower_bound(right.along.begin(), right.along.end(), x);
-    if (after == right.along.begin() || after == right.along.end()) continue;
-    const auto k = static_cast<std::size_t>(after - right.along.begin());
-    const double t = (x - right.along[k - 1]) / (right.along[k] - right.along[k - 1]);
-    const double differ = left.aside[i] - std::lerp(right.aside[k - 1], right.aside[k], t);
-    const Eigen::Vector3d row(1, x, x * x);
+  double squares = 0;
+  for (std::size_t i = 0; i < gap.along.size(); ++i) {
+    const Eigen::Vector3d row(1, gap.along[i], gap.along[i] * gap.along[i]);
     normal += row * row.transpose();
-    moments += differ * row;
-    squares += differ * differ;
-    ++count;
+    moments += gap.apart[i] * row;
+    squares += gap.apart[i] * gap.apart[i];
   }
-  Difference fit;
-  if (count <= static_cast<double>(terms)) return fit;
-  fit.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(moments.head(terms));
-  fit.scatter = std::sqrt(std::max(0.0, squares - fit.powers.dot(moments)) / count);
-  return fit;
+  Course course;
+  course.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(moments.head(terms));
+  course.scatter = std::sqrt(std::max(0.0, squares - course.powers.dot(moments)) /
+                             static_cast<double>(gap.along.size()));
+  return course;
 }
 
 // What is left of a normal distribution between two limits: its mean and standard deviation. Where
@@ -158,6 +147,7 @@ double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
 }
 
 bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
+  constexpr std::size_t kFewest = 60;             // points abreast of each other
   constexpr double kLeast = 0.006;                // of the length; less is how blades are made
   constexpr double kCloser = 1.0 / 3;             // of the scatter about a straight line
   constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola
@@ -166,10 +156,10 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   const double length_px = std::max(1.0, 0.5 * (left.norm() + right.norm()));
   const Vector2d direction = (left.normalized() + right.normalized()).normalized();
   const double side = std::copysign(1.0, Cross(direction, left));
-  const AboutLine of_left = EdgeAbout(edges.left_px, pivot_px, direction, side, length_px);
-  const AboutLine of_right = EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px);
-  const Difference straight = FitDifference(of_left, of_right, 2);
-  const Difference bent = FitDifference(of_left, of_right, 3);
+  const EdgeGap gap = GapBetween(EdgeAbout(edges.left_px, pivot_px, direction, side, length_px),
+                                 EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px));
+  if (gap.along.size() < kFewest) return false;
+  const Course straight = CourseOf(gap, 2), bent = CourseOf(gap, 3);
   const double square = bent.powers[2];
   if (std::abs(square) < kLeast || bent.scatter > std::min(kCloser * straight.scatter, kSmooth))
     return false;
