@@ -221,8 +221,7 @@ bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone) {
   for (int from = 0; from < bgr.cols; from += kPartPx) {
     const cv::Mat part = bgr.colRange(from, std::min(from + kPartPx, bgr.cols));
     Vector3d sum = Vector3d::Zero();
-    for (const cv::Vec3b& pixel : cv::Mat_<cv::Vec3b>(part))
-      sum += Vector3d(tone.linear[pixel[0]], tone.linear[pixel[1]], tone.linear[pixel[2]]);
+    for (const cv::Vec3b& pixel : cv::Mat_<cv::Vec3b>(part)) sum += LightOf(pixel, tone);
     if (ChromaOf(sum / static_cast<double>(part.total())).norm() > kToldApart) return true;
   }
   return false;
@@ -242,8 +241,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
     const Vector2d middle = edge.points[(stretch.first + stretch.last) / 2].trend_px;
-    const double gap_px = (other.points[NearestPoint(other, middle)].trend_px - middle).norm();
-    const auto transition = seen.TransitionAcross(stretch, blade_px, gap_px);
+    const auto transition = seen.TransitionAcross(stretch, blade_px, DistanceTo(other, middle));
     if (!transition) continue;
     offsets.push_back({k, colours.px * transition->of_colour});
     certain.push_back(colours.px * transition->Certain());

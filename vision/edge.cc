@@ -172,6 +172,10 @@ std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_p
   return static_cast<std::size_t>(nearest - edge.points.begin());
 }
 
+double DistanceTo(const LocatedEdge& edge, const Eigen::Vector2d& place_px) {
+  return (edge.points[NearestPoint(edge, place_px)].trend_px - place_px).norm();
+}
+
 double LongestStray(const LocatedEdge& edge) {
   return ShareOf(edge, MostStrayInARow(edge.points.begin(), edge.points.end()));
 }

@@ -66,6 +66,8 @@ struct LocatedEdge {
 
 // Of the point whose trend lies nearest to a place, in `points`.
 [[nodiscard]] std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_px);
+// How far from that trend the place is.
+[[nodiscard]] double DistanceTo(const LocatedEdge& edge, const Eigen::Vector2d& place_px);
 
 // The longest stretch of points that do not count, as a share of the edge.
 [[nodiscard]] double LongestStray(const LocatedEdge& edge);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/edge_gap.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +20,25 @@ EdgeGap GapBetween(const EdgeAboutLine& first, const EdgeAboutLine& second) {
     gap.apart.push_back(first.aside[i] - std::lerp(second.aside[k - 1], second.aside[k], t));
   }
   return gap;
+}
+
+Eigen::Vector3d GapCourse::PowersAt(double along) const {
+  const double t = (along - origin) / length;
+  return {1, t, t * t};
+}
+
+void GapCourse::Fit(const EdgeGap& gap,
+                    Eigen::Index terms,
+                    const std::function<bool(std::size_t)>& counts) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d moments = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < gap.along.size(); ++i) {
+    if (!counts(i)) continue;
+    const Eigen::Vector3d row = PowersAt(gap.along[i]);
+    normal += row * row.transpose();
+    moments += row * gap.apart[i];
+  }
+  powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(moments.head(terms));
 }
 
 }  // namespace bladecurve

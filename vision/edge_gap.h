@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 namespace bladecurve {
@@ -18,5 +20,19 @@ struct EdgeGap {
   std::vector<double> along, apart;
 };
 [[nodiscard]] EdgeGap GapBetween(const EdgeAboutLine& first, const EdgeAboutLine& second);
+
+// What a gap follows: a polynomial of the place along the line, counted from `origin` in `length`s.
+struct GapCourse {
+  double origin = 0, length = 1;
+  Eigen::Vector3d powers = Eigen::Vector3d::Zero();
+
+  [[nodiscard]] double At(double along) const { return powers.dot(PowersAt(along)); }
+  // Least squares over the gap's places for which counts(index): a straight line (terms: 2) or a
+  // parabola (3).
+  void Fit(const EdgeGap& gap, Eigen::Index terms, const std::function<bool(std::size_t)>& counts);
+
+ private:
+  [[nodiscard]] Eigen::Vector3d PowersAt(double along) const;
+};
 
 }  // namespace bladecurve

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -120,14 +119,9 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
   return path;
 }
 
-double MedianDistance(const LocatedEdge& edge, const std::vector<Vector2d>& path_px) {
+double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other) {
   std::vector<double> distances;
-  for (const LocatedEdgePoint& p : edge.points) {
-    double least_px2 = std::numeric_limits<double>::infinity();
-    for (const Vector2d& q : path_px)
-      least_px2 = std::min(least_px2, (q - p.trend_px).squaredNorm());
-    distances.push_back(std::sqrt(least_px2));
-  }
+  for (const LocatedEdgePoint& p : edge.points) distances.push_back(DistanceTo(other, p.trend_px));
   return Median(std::move(distances));
 }
 
@@ -283,10 +277,9 @@ class BladeLocator {
     const auto border = FindColourBorder(colours, tone_, *edge, other, width_px);
     if (!border || std::abs(border->offset_px) < kFarPx) return;
     const EdgeGuess guess{border->path_px, left, kSearchPx};
-    const std::vector<Vector2d> old_px = TrendOf(*edge);
     for (const double shade : {0.0, kShade}) {
       std::optional<LocatedEdge> again = InColoursThenGrey(guess, shade);
-      if (!again || MedianDistance(*again, old_px) < kWay * std::abs(border->offset_px)) continue;
+      if (!again || MedianDistance(*again, *edge) < kWay * std::abs(border->offset_px)) continue;
       *edge = *std::move(again);
       return;
     }

@@ -44,19 +44,12 @@ Profile ProfileOf(const MirrorLine& line, const LocatedBlade& blade) {
   return profile;
 }
 
-// The line that the gap follows over its middle, clear of crotch and tips, and how far the gap is
-// off it everywhere.
+// What the gap follows over its middle, clear of crotch and tips, and how far it is off that
+// everywhere.
 struct Trend {
-  double origin = 0, length = 1;
-  Eigen::Vector3d powers = Eigen::Vector3d::Zero();  // of the place from the origin, in lengths
+  GapCourse course;
   std::vector<double> off;
   double scatter = 0;  // over the middle
-
-  [[nodiscard]] Eigen::Vector3d RowAt(double along) const {
-    const double t = (along - origin) / length;
-    return {1, t, t * t};
-  }
-  [[nodiscard]] double At(double along) const { return powers.dot(RowAt(along)); }
 };
 
 // A straight line (terms: 2) or a parabola (3).
@@ -68,22 +61,16 @@ Trend TrendOf(const EdgeGap& gap, Eigen::Index terms) {
     return static_cast<std::size_t>(share * static_cast<double>(gap.along.size()));
   };
   Trend trend;
-  trend.origin = gap.along[at(0.5 * (kFrom + kTo))];
-  trend.length = gap.along.back() - gap.along.front();
+  trend.course.origin = gap.along[at(0.5 * (kFrom + kTo))];
+  trend.course.length = gap.along.back() - gap.along.front();
   trend.scatter = std::numeric_limits<double>::infinity();
   trend.off.assign(gap.along.size(), 0.0);
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (std::size_t i = at(kFrom); i < at(kTo); ++i) {
-      if (std::abs(trend.off[i]) > kFar * trend.scatter) continue;
-      const Eigen::Vector3d row = trend.RowAt(gap.along[i]);
-      normal += row * row.transpose();
-      right += row * gap.apart[i];
-    }
-    trend.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(right.head(terms));
+    trend.course.Fit(gap, terms, [&](std::size_t i) {
+      return i >= at(kFrom) && i < at(kTo) && std::abs(trend.off[i]) <= kFar * trend.scatter;
+    });
     for (std::size_t i = 0; i < gap.along.size(); ++i)
-      trend.off[i] = gap.apart[i] - trend.At(gap.along[i]);
+      trend.off[i] = gap.apart[i] - trend.course.At(gap.along[i]);
     const auto middle = [&](double share) {
       return trend.off.begin() + static_cast<std::ptrdiff_t>(at(share));
     };
@@ -251,7 +238,8 @@ class Comparison {
     for (std::size_t i = 0; i < other.along.size(); ++i) {
       const double along = other.along[i];
       if (along <= own.along.back()) continue;
-      points.push_back(line_.At(along, own.side * (other.aside[i] + sign * trend_.At(along))));
+      points.push_back(
+          line_.At(along, own.side * (other.aside[i] + sign * trend_.course.At(along))));
     }
     return points;
   }

@@ -11,8 +11,8 @@ namespace bladecurve {
 [[nodiscard]] bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& blades);
 
 // Blades mirror each other about the line through the pivot, unless both are bent to one side. Where
-// the edges do not, one of them is
-// looked for anew, trimmed, and pivot->asymmetry says how alike the two are then:
+// the edges do not, one of them is looked for anew, trimmed, and pivot->asymmetry says how alike the
+// two are then:
 // - a lost one, where the other puts it, if it is as clear there as the other;
 // - of edges in a view of known tilt (markers), from a little difference on, the outer one inside of
 //   it, where a shadow begins that accounts for the difference;

@@ -29,8 +29,8 @@ class Photo {
   // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
   // will do. Up to `slack` times that, >= 1, where that saves reducing it.
   [[nodiscard]] cv::Mat DecodeColour(int max_side, double slack = 1) const;
-  // The same of the topmost rows, a share of all in (0, 1]: of a JPEG file in as little of the
-  // time. The longest side of the whole picture is at least max_side, if it has as many pixels.
+  // The same of the topmost rows, a share of all in (0, 1], as large as the file gives them from
+  // max_side on; of JPEG and PNG files in as little of the time.
   [[nodiscard]] cv::Mat DecodeTopColour(double share, int max_side) const;
   // Of the file's bytes, lower-case hex; made when asked for.
   [[nodiscard]] std::string Sha256() const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <png.h>
 
+#include <cmath>
 #include <csetjmp>
 #include <cstring>
 #include <stdexcept>
@@ -59,7 +60,7 @@ class PngReader {
 
   int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
   int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
-  cv::Mat Decode(bool colour);
+  cv::Mat Decode(const DecodeOptions& options);
   FileFacts Facts() const;
 
  private:
@@ -84,7 +85,7 @@ PixelLayout PngReader::Layout() const {
   return alpha ? PixelLayout::kGreyAlpha : PixelLayout::kGrey;
 }
 
-cv::Mat PngReader::Decode(bool colour) {
+cv::Mat PngReader::Decode(const DecodeOptions& options) {
   Guarded([&] {
     png_set_expand(png_);  // palette to RGB, 1 to 4 bits to 8, transparent colour to alpha
     png_set_scale_16(png_);
@@ -92,11 +93,21 @@ cv::Mat PngReader::Decode(bool colour) {
     png_read_update_info(png_, info_);
   });
   const PixelLayout layout = Layout();
-  cv::Mat stored = NewPicture(cv::Size(width(), height()), CV_8UC(ChannelsOf(layout)));
+  // Of an interlaced picture every row comes in several passes over all of it.
+  const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
+  const double share = interlaced ? 1 : options.top_share;
+  cv::Mat stored = NewPicture(cv::Size(width(), static_cast<int>(std::ceil(share * height()))),
+                              CV_8UC(ChannelsOf(layout)));
   std::vector<png_bytep> rows(static_cast<size_t>(stored.rows));
   for (int y = 0; y < stored.rows; ++y) rows[static_cast<size_t>(y)] = stored.ptr<uchar>(y);
-  Guarded([&] { png_read_image(png_, rows.data()); });
-  return ConvertPixels(stored, layout, colour);
+  Guarded([&] {
+    if (interlaced) {
+      png_read_image(png_, rows.data());
+    } else {
+      png_read_rows(png_, rows.data(), nullptr, static_cast<png_uint_32>(stored.rows));
+    }
+  });
+  return ConvertPixels(stored, layout, options.colour);
 }
 
 FileFacts PngReader::Facts() const {
@@ -118,7 +129,7 @@ FileFacts PngReader::Facts() const {
 DecodedPhoto DecodePng(std::string_view bytes, const DecodeOptions& options) {
   PngReader reader(bytes);
   CheckPhotoSize(reader.width(), reader.height());
-  return {reader.Decode(options.colour), reader.width(), reader.height(), reader.Facts()};
+  return {reader.Decode(options), reader.width(), reader.height(), reader.Facts()};
 }
 
 }  // namespace bladecurve

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot_geometry.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,28 +67,20 @@ EdgeAboutLine EdgeAbout(const std::vector<Vector2d>& edge,
   return about;
 }
 
-// A polynomial of the place along the line.
-struct Course {
-  Eigen::Vector3d powers = Eigen::Vector3d::Zero();
+// A gap as a polynomial, from the line's zero.
+struct FittedGap {
+  GapCourse course;
   double scatter = 0;
 };
 
-// By least squares: a straight line (terms: 2) or a parabola (3).
-Course CourseOf(const EdgeGap& gap, Eigen::Index terms) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d moments = Eigen::Vector3d::Zero();
+FittedGap FitAllOf(const EdgeGap& gap, Eigen::Index terms) {
+  FittedGap fitted;
+  fitted.course.Fit(gap, terms, [](std::size_t) { return true; });
   double squares = 0;
-  for (std::size_t i = 0; i < gap.along.size(); ++i) {
-    const Eigen::Vector3d row(1, gap.along[i], gap.along[i] * gap.along[i]);
-    normal += row * row.transpose();
-    moments += gap.apart[i] * row;
-    squares += gap.apart[i] * gap.apart[i];
-  }
-  Course course;
-  course.powers.head(terms) = normal.topLeftCorner(terms, terms).ldlt().solve(moments.head(terms));
-  course.scatter = std::sqrt(std::max(0.0, squares - course.powers.dot(moments)) /
-                             static_cast<double>(gap.along.size()));
-  return course;
+  for (std::size_t i = 0; i < gap.along.size(); ++i)
+    squares += std::pow(gap.apart[i] - fitted.course.At(gap.along[i]), 2);
+  fitted.scatter = std::sqrt(squares / static_cast<double>(gap.along.size()));
+  return fitted;
 }
 
 // What is left of a normal distribution between two limits: its mean and standard deviation. Where
@@ -159,12 +150,12 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   const EdgeGap gap = GapBetween(EdgeAbout(edges.left_px, pivot_px, direction, side, length_px),
                                  EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px));
   if (gap.along.size() < kFewest) return false;
-  const Course straight = CourseOf(gap, 2), bent = CourseOf(gap, 3);
-  const double square = bent.powers[2];
+  const FittedGap straight = FitAllOf(gap, 2), bent = FitAllOf(gap, 3);
+  const double square = bent.course.powers[2];
   if (std::abs(square) < kLeast || bent.scatter > std::min(kCloser * straight.scatter, kSmooth))
     return false;
   // By the line's choice the edges are alike at the ends, the other root is where the bend begins.
-  const double begins = bent.powers[0] / square;
+  const double begins = bent.course.powers[0] / square;
   return begins > kBehind && begins < kHeel;
 }
 

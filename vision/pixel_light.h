@@ -11,6 +11,11 @@
 
 namespace bladecurve {
 
+// Linear light (BGR).
+[[nodiscard]] inline Eigen::Vector3d LightOf(const cv::Vec3b& bgr, const ToneCurve& tone) {
+  return {tone.linear[bgr[0]], tone.linear[bgr[1]], tone.linear[bgr[2]]};
+}
+
 // Linear light (BGR) of the pixel nearest to a place; nothing beyond the picture. picture: CV_8UC3,
 // or CV_8UC1, whose light fills all three channels.
 [[nodiscard]] inline std::optional<Eigen::Vector3d> LightAt(const cv::Mat& picture,
@@ -20,8 +25,7 @@ namespace bladecurve {
   if (!cv::Rect({}, picture.size()).contains(pixel)) return std::nullopt;
   if (picture.channels() == 1)
     return Eigen::Vector3d::Constant(tone.linear[picture.at<uchar>(pixel)]);
-  const auto& bgr = picture.at<cv::Vec3b>(pixel);
-  return Eigen::Vector3d(tone.linear[bgr[0]], tone.linear[bgr[1]], tone.linear[bgr[2]]);
+  return LightOf(picture.at<cv::Vec3b>(pixel), tone);
 }
 
 }  // namespace bladecurve
