@@ -229,7 +229,8 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
 std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,
                                              const CourseDoubt& doubt,
                                              const Vector2d& place_px) {
-  constexpr double kWidestGap = 0.15;  // of the way to the place, that a cubic may bridge
+  constexpr double kWidestGap = 0.15;      // of the way to the place, that a cubic may bridge
+  constexpr double kOffBeyondGap = 0.005;  // of the way, that the place is off beyond a wider one
   constexpr size_t kFewest = 20;
   if (points.empty()) return std::nullopt;
   const Vector2d along = place_px - points.front().point_px;
@@ -244,8 +245,9 @@ std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>
                               ? 0
                               : offset.px - OffsetAtPlace(clear, way_px, doubt.correlation_px).px;
   const bool bridged = distal.back().row[1] > -kWidestGap;
+  const double alone_px = bridged ? 0 : kOffBeyondGap * way_px;
   return PlaceOnCourse{place_px + (bridged ? offset.px : 0) * across,
-                       std::hypot(offset.sigma_px, moved_px)};
+                       std::hypot(offset.sigma_px, moved_px, alone_px)};
 }
 
 double LeavesCourseBy(const std::vector<LocatedEdgePoint>& points,

@@ -138,7 +138,7 @@ TEST(AbreastOnCourse, BridgesNoWideGap) {
       AbreastOnCourse(Edge(240, kLength - 240, [](int) { return 0.0; }), {16, 0}, place_px);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->point_px, place_px);
-  EXPECT_GT(found->across_sigma_px, 0.25 * kOffPx);
+  EXPECT_GT(found->across_sigma_px, 0.5 * kOffPx);
   EXPECT_FALSE(AbreastOnCourse({}, kAlone, EndOnEdge()));
 }
 
