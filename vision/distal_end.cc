@@ -15,6 +15,7 @@ using Eigen::Vector2d;
 constexpr int kSmooth = 4;  // a cubic: cutting edges bend no more than that over their length
 constexpr double kProximalFrom = 0.06;  // the crotch may still be blurred there
 constexpr double kEarliest = 0.70;      // tips round off in the last third at most
+constexpr double kClearRival = 1;       // px of scatter
 
 // The edge in the frame of its chord: position along it in [0, 1] of its length, offset across it
 // in px, towards the blade.
@@ -115,12 +116,14 @@ DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double 
   return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
 }
 
-DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap) {
+// `edge_step` as from StepAlong: an arc across which the picture steps the other way is rather that
+// of a shadow.
+DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap, double edge_step) {
   // The arc's start is known to a few tenths of its radius: real tips are not quite round.
   DistalEnd end =
       EndAtCap(edge, cap, std::hypot(0.5, std::hypot(cap.scatter_px, 0.25 * cap.radius_px)));
   end.arc_seen = true;
-  end.evidence = cap.Evidence();
+  end.evidence = cap.step * edge_step < 0 ? 0 : cap.Evidence();
   return end;
 }
 
@@ -161,13 +164,30 @@ std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
                                    const std::vector<Vector2d>& edge,
                                    const TipSearch& presumed,
                                    const std::optional<Vector2d>& step_end_px) {
-  constexpr double kClearArc = 1;  // px of scatter
   if (!step_end_px || (*step_end_px - presumed.tip_px).norm() < presumed.reach_px)
     return std::nullopt;
   TipSearch search = presumed;
   search.tip_px = *step_end_px;
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
-  return cap && cap->scatter_px < kClearArc ? cap : std::nullopt;
+  return cap && cap->scatter_px < kClearRival ? cap : std::nullopt;
+}
+
+// Arcs before the presumed tip, up to a blade's width, at which the picture steps as it does across
+// the edge: the presumed tip may be that of the blade's shadow.
+std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
+                                  const std::vector<Vector2d>& edge,
+                                  const TipSearch& presumed,
+                                  double edge_step) {
+  std::vector<DistalEnd> ends;
+  TipSearch search = presumed;
+  for (double back_px = presumed.reach_px; back_px < presumed.blade_width_px + presumed.reach_px;
+       back_px += presumed.reach_px) {
+    search.tip_px = presumed.tip_px - back_px * AlongChord(edge);
+    const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
+    if (cap && cap->scatter_px < kClearRival && cap->step * edge_step > 0)
+      ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
+  }
+  return ends;
 }
 
 }  // namespace
@@ -179,23 +199,23 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
   if (edge.size() < kFewest) {
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
-    return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, std::nullopt};
+    return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const bool clear = cap && cap->scatter_px < kClearArc;
-  const std::optional<Vector2d> step_end_px = FollowStep(grey, edge, search.tip);
+  const double step = StepAlong(grey, edge, search.tip);
+  const std::optional<Vector2d> step_end_px = FollowStep(grey, edge, search.tip, step);
   const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, step_end_px);
-  if (clear) {
-    const DistalEnd end = EndAtSeenCap(edge, *cap);
-    return {end, rival ? std::optional(EndAtSeenCap(edge, *rival)) : std::nullopt};
-  }
-  if (!rival) return {EndWithoutCap(edge, search, step_end_px), std::nullopt};
+  const bool unlikely = !clear || cap->step * step < 0;
+  std::vector<DistalEnd> rivals;
+  if (unlikely) rivals = EndsBefore(grey, edge, search.tip, step);
+  if (rival) rivals.push_back(EndAtSeenCap(edge, *rival, step));
+  if (clear) return {EndAtSeenCap(edge, *cap, step), rivals};
   // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
   // mirror the background.
-  const bool beyond = (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
-  const DistalEnd at_rival = EndAtSeenCap(edge, *rival);
-  if (beyond || IsCertain(*rival)) return {at_rival, std::nullopt};
-  return {EndWithoutCap(edge, search, step_end_px), at_rival};
+  const bool beyond = rival && (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
+  if (rival && (beyond || IsCertain(*rival))) return {EndAtSeenCap(edge, *rival, step), {}};
+  return {EndWithoutCap(edge, search, step_end_px), rivals};
 }
 
 }  // namespace bladecurve

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <vector>
 
 #include "vision/tip_cap.h"
@@ -25,7 +24,7 @@ struct DistalEnd {
 
 struct DistalEnds {
   DistalEnd likely;
-  std::optional<DistalEnd> rival;  // by another arc, where the step across the edge is lost
+  std::vector<DistalEnd> rivals;  // by other arcs
 };
 
 struct EndSearch {

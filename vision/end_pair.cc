@@ -142,7 +142,7 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
   const DistalEnd upper = blades->upper.end, lower = blades->lower.end;
   const auto candidates = [](const LocatedBlade& blade) {
     std::vector<DistalEnd> ends{blade.end};
-    if (blade.rival_end) ends.push_back(*blade.rival_end);
+    ends.insert(ends.end(), blade.rival_ends.begin(), blade.rival_ends.end());
     return ends;
   };
   double most = kMoreClearly * evidence(upper, lower);
@@ -160,7 +160,7 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
 }  // namespace
 
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
-  if (scale.sheet) ChooseAlikeEnds(scale, pivot, blades);
+  ChooseAlikeEnds(scale, pivot, blades);
   const Comparison both = Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();

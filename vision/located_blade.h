@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ struct LocatedBlade {
   bool on_left = true;
   LocatedEdge edge;
   DistalEnd end;
-  std::optional<DistalEnd> rival_end;  // where it may lie instead
+  std::vector<DistalEnd> rival_ends;   // where it may lie instead
   std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
   std::string moved = {};              // to where, if the edge was located anew; else empty
 };

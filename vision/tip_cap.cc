@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kFewestPoints = 12;  // fewer say nothing about where the edge goes on
+constexpr double kLastPart = 0.2;          // of the edge's length, where its step is taken
 
 // The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
 struct EdgeAxis {
@@ -89,7 +90,7 @@ std::optional<EndSeen> LookAlong(
       return std::nullopt;
     values.push_back(Bilinear<uchar>(grey, p));
   }
-  double best = 0;
+  double best = 0, sign = 1;
   std::size_t best_at = 0;
   std::vector<double> steps(values.size(), 0.0);
   for (std::size_t i = kHalf; i + kHalf < values.size(); ++i) {
@@ -101,6 +102,7 @@ std::optional<EndSeen> LookAlong(
     if (steps[i] > best) {
       best = steps[i];
       best_at = i;
+      sign = step < 0 ? -1 : 1;
     }
   }
   if (best < kLeastGrey) return std::nullopt;
@@ -112,7 +114,7 @@ std::optional<EndSeen> LookAlong(
       shift = std::clamp(0.5 * (steps[best_at - 1] - steps[best_at + 1]) / curvature, -0.5, 0.5);
   }
   return EndSeen{
-      depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift), best};
+      depth, from - kHalf * kStep + kStep * (static_cast<double>(best_at) + shift), sign * best};
 }
 
 struct Arc {
@@ -198,15 +200,9 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
   return TipCap{axis.At(best.start, 0), best.radius, best.scatter, best.seen, best.step};
 }
 
-std::optional<Vector2d> FollowStep(const cv::Mat& grey,
-                                   const std::vector<Vector2d>& edge,
-                                   const TipSearch& search) {
-  constexpr double kLastPart = 0.2;  // of the edge's length
-  constexpr double kShare = 0.4;     // of the step there is still a step
-  constexpr double kLost = 8;        // px without one
+double StepAlong(const cv::Mat& grey, const std::vector<Vector2d>& edge, const TipSearch& search) {
   constexpr double kLeastGrey = 8;
-  constexpr double kFurthest = 1.5;  // edge's lengths
-  if (edge.size() < kFewestPoints) return std::nullopt;
+  if (edge.size() < kFewestPoints) return 0;
   const EdgeAxis axis = ContinueEdge(edge, search);
   const double last = (edge.back() - axis.origin).dot(axis.along);
   std::vector<double> steps;
@@ -214,12 +210,24 @@ std::optional<Vector2d> FollowStep(const cv::Mat& grey,
     if (const auto step = StepAcross(grey, axis, t)) steps.push_back(*step);
   }
   const double usual = Median(steps);
-  if (!(std::abs(usual) > kLeastGrey)) return std::nullopt;
+  return std::abs(usual) > kLeastGrey ? usual : 0;
+}
+
+std::optional<Vector2d> FollowStep(const cv::Mat& grey,
+                                   const std::vector<Vector2d>& edge,
+                                   const TipSearch& search,
+                                   double usual_step) {
+  constexpr double kShare = 0.4;     // of the step there is still a step
+  constexpr double kLost = 8;        // px without one
+  constexpr double kFurthest = 1.5;  // edge's lengths
+  if (edge.size() < kFewestPoints || usual_step == 0) return std::nullopt;
+  const EdgeAxis axis = ContinueEdge(edge, search);
+  const double last = (edge.back() - axis.origin).dot(axis.along);
   double seen = (1 - kLastPart) * last;
   for (double t = seen; t < kFurthest * last; ++t) {
     const auto step = StepAcross(grey, axis, t);
     if (!step) return std::nullopt;
-    if (*step / usual > kShare) seen = t;
+    if (*step / usual_step > kShare) seen = t;
     if (t - seen > kLost) return axis.At(seen, 0);
   }
   return std::nullopt;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
@@ -15,9 +16,9 @@ struct TipCap {
   double radius_px = 0;
   double scatter_px = 0;  // of the outline seen about the arc, robust
   int seen = 0;           // lines along which the outline was seen
-  double step = 0;        // grey values across it, typically
+  double step = 0;        // grey values beyond it less within, typically
 
-  [[nodiscard]] double Evidence() const { return seen * step; }
+  [[nodiscard]] double Evidence() const { return seen * std::abs(step); }
 };
 
 struct TipSearch {
@@ -39,11 +40,18 @@ struct TipSearch {
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
 
-// The last point of the edge, continued, at which there is a step across it like that along its
-// last part. std::nullopt where it goes on to the picture's border, or stood out nowhere.
+// Grey values outside the edge less those inside along its last part, typically; 0 where it does
+// not stand out.
+[[nodiscard]] double StepAlong(const cv::Mat& grey,
+                               const std::vector<Eigen::Vector2d>& edge,
+                               const TipSearch& search);
+
+// The last point of the edge, continued, at which there is a step across it like `usual_step`, as
+// from StepAlong. std::nullopt where it goes on to the picture's border, or stood out nowhere.
 [[nodiscard]] std::optional<Eigen::Vector2d> FollowStep(const cv::Mat& grey,
                                                         const std::vector<Eigen::Vector2d>& edge,
-                                                        const TipSearch& search);
+                                                        const TipSearch& search,
+                                                        double usual_step);
 
 // What tips usually are, where no arc shows: a tenth of the blade's width in radius, from the edge
 // continued to `search.tip_px`. Good to about its radius along the edge; `seen` is 0. `edge` holds

@@ -105,9 +105,9 @@ TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
   constexpr double kShadow = 28;  // px
   const auto with_rival = [&](bool on_left, double evidence, double rival_evidence) {
     LocatedBlade blade = BladeOnRay(on_left, kLength + kShadow, 1, true);
-    blade.rival_end = BladeOnRay(on_left, kLength, 1, true).end;
+    blade.rival_ends = {BladeOnRay(on_left, kLength, 1, true).end};
     blade.end.evidence = evidence;
-    blade.rival_end->evidence = rival_evidence;
+    blade.rival_ends[0].evidence = rival_evidence;
     return blade;
   };
   Blades clear{with_rival(true, 100, 300), with_rival(false, 100, 300)};
@@ -117,14 +117,18 @@ TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
   Blades faint{with_rival(true, 300, 100), with_rival(false, 300, 100)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &faint);
   EXPECT_NEAR(LengthOf(faint.upper), kLength + kShadow, kExact);
+  Blades free{with_rival(true, 100, 300), with_rival(false, 100, 300)};
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &free);
+  EXPECT_NEAR(LengthOf(free.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(free.lower), kLength, kExact);
 }
 
 // A line on one blade ends like a tip, clearer than it; the other blade has its end elsewhere.
 TEST(AgreeOnEnds, TakesNoRivalThatTheOtherBladeContradicts) {
   Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, kLength, 1, true)};
-  blades.upper.rival_end = BladeOnRay(true, kLength - 60, 1, true).end;
+  blades.upper.rival_ends = {BladeOnRay(true, kLength - 60, 1, true).end};
   blades.upper.end.evidence = blades.lower.end.evidence = 100;
-  blades.upper.rival_end->evidence = 1000;
+  blades.upper.rival_ends[0].evidence = 1000;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
   EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
   EXPECT_FALSE(blades.ends_contradict);
@@ -133,8 +137,8 @@ TEST(AgreeOnEnds, TakesNoRivalThatTheOtherBladeContradicts) {
 // Nothing on the other blade confirms it.
 TEST(AgreeOnEnds, TakesNoRivalBesideAnEndWithoutArc) {
   Blades blades{BladeOnRay(true, kLength, 20, false), BladeOnRay(false, kLength, 20, false)};
-  blades.upper.rival_end = BladeOnRay(true, kLength - 25, 1, true).end;
-  blades.upper.rival_end->evidence = 100;
+  blades.upper.rival_ends = {BladeOnRay(true, kLength - 25, 1, true).end};
+  blades.upper.rival_ends[0].evidence = 100;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
   EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
 }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -80,7 +81,8 @@ TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
   for (const double presumed : {250.0, 300.0, 330.0}) {
     TipSearch search = kSearch;
     search.tip_px.x() = presumed;
-    const auto lost = FollowStep(Blade(kRadius), edge, search);
+    const cv::Mat picture = Blade(kRadius);
+    const auto lost = FollowStep(picture, edge, search, StepAlong(picture, edge, search));
     ASSERT_TRUE(lost) << presumed;
     EXPECT_NEAR(lost->x(), kTip - kRadius / 2, kClosePx) << presumed;
   }
@@ -136,9 +138,30 @@ TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
   EndSearch search{kSearch, 0.05};
   search.tip.tip_px.x() = kTip + kShadowPx;
   const DistalEnds ends = FindDistalEnds(picture, EdgeAlong(kEdge), search);
-  ASSERT_TRUE(ends.rival);
-  EXPECT_NEAR(ends.rival->point_px.x(), kTip - kRadius, kAlong);
-  EXPECT_GT(ends.rival->evidence, 2 * ends.likely.evidence);
+  ASSERT_EQ(ends.rivals.size(), 1);
+  EXPECT_NEAR(ends.rivals[0].point_px.x(), kTip - kRadius, kAlong);
+  EXPECT_GT(ends.rivals[0].evidence, 2 * ends.likely.evidence);
+}
+
+// The shadow of a bright blade's tip ends with a step that is none of the blade's.
+TEST(FindDistalEnds, BelievesNoArcThatStepsTheOtherWay) {
+  constexpr double kRadius = 8, kAlong = 2.5;
+  constexpr int kShadowPx = 30;
+  constexpr uchar kBright = 220, kGround = 120, kShade = 60;
+  cv::Mat wide, picture(160, 340 + kShadowPx, CV_8UC1, cv::Scalar(kGround));
+  cv::copyMakeBorder(Blade(kRadius) < 140, wide, 0, 0, kShadowPx, kShadowPx, cv::BORDER_REPLICATE);
+  picture.setTo(kShade, wide.colRange(0, picture.cols));
+  picture.setTo(kBright, wide.colRange(kShadowPx, kShadowPx + picture.cols));
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip + kShadowPx;
+  const DistalEnds ends = FindDistalEnds(picture, EdgeAlong(kEdge), search);
+  EXPECT_NEAR(ends.likely.point_px.x(), kTip + kShadowPx - kRadius, kAlong);
+  EXPECT_EQ(ends.likely.evidence, 0);
+  const auto is_at_tip = [&](const DistalEnd& end) {
+    return std::abs(end.point_px.x() - (kTip - kRadius)) < kAlong && end.evidence > 0;
+  };
+  EXPECT_TRUE(std::any_of(ends.rivals.begin(), ends.rivals.end(), is_at_tip));
 }
 
 // Grain of the ground behind the blade was taken for its tip. On a wide blade the lines lie so far
