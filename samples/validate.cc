@@ -88,7 +88,8 @@ void AddValidate(CLI::App& app, int* exit_code) {
   sub->add_option("--seed", command->seed, "Of the series of scenes")->capture_default_str();
   const std::map<std::string, Difficulty> names = {{"clean", Difficulty::kClean},
                                                    {"standard", Difficulty::kStandard},
-                                                   {"hard", Difficulty::kHard}};
+                                                   {"hard", Difficulty::kHard},
+                                                   {"sun", Difficulty::kSun}};
   sub->add_option("--difficulty", command->difficulty, "Which range scenes are drawn from")
       ->transform(CLI::CheckedTransformer(names));
   sub->add_option("--csv", command->csv, "One line a scene; '-': standard output, no table");

@@ -223,9 +223,34 @@ void AddMarkers(Dice* dice, SceneSpec* scene) {
   }
 }
 
+// The same photograph, by a camera of another resolution.
+void TakeWithWidth(int width, SceneSpec* scene) {
+  const double finer = static_cast<double>(width) / scene->width;
+  scene->width = width;
+  scene->height = width * 3 / 4;
+  scene->camera.mm_per_px /= finer;
+  if (finer > 1) scene->camera.blur_px *= std::sqrt(finer);  // smaller pixels, the same lens
+}
+
+// Shadows with borders as sharp as the sun's, of instruments of any colour, seen by any camera.
+void LieInSun(Dice* dice, SceneSpec* scene) {
+  LightSpec& light = scene->light;
+  light.shadow = dice->Between(0.5, 0.95);
+  light.shadow_blur_mm = dice->Between(0.1, 0.6);
+  light.elevation_rad = dice->Between(20, 65) * kDegree;
+  light.contact_shadow = dice->Between(0, 0.3);
+  scene->finish =
+      dice->OneOf({Finish::kBlack, Finish::kBlack, Finish::kSteel, Finish::kSteel, Finish::kGold});
+  if (scene->backdrop == Backdrop::kLightTable || scene->backdrop == Backdrop::kCutOut)
+    scene->backdrop = dice->OneOf({Backdrop::kWood, Backdrop::kDrape});
+  if (dice->Chance(0.5)) TakeWithWidth(dice->OneOf({1000, 2400, 4032}), scene);
+}
+
 }  // namespace
 
-SceneSpec RandomScene(std::uint64_t seed, Difficulty difficulty) {
+SceneSpec RandomScene(std::uint64_t seed, Difficulty wanted) {
+  const bool sun = wanted == Difficulty::kSun;
+  const Difficulty difficulty = sun ? Difficulty::kHard : wanted;
   Dice dice(seed);
   SceneSpec scene;
   scene.width = dice.OneOf({1600, 2000});
@@ -239,6 +264,7 @@ SceneSpec RandomScene(std::uint64_t seed, Difficulty difficulty) {
   Frame(&dice, &scene);
   Light(&dice, difficulty, &scene);
   Lay(&dice, difficulty, &scene);
+  if (sun) LieInSun(&dice, &scene);
   scene.seed = dice.Bits();
   if (scene.backdrop == Backdrop::kCutOut) {
     CutOut(&scene);

@@ -99,7 +99,8 @@ struct SceneSpec {
   std::uint64_t seed = 1;  // of texture and noise
 };
 
-enum class Difficulty { kClean, kStandard, kHard };
+// kSun: like kHard, in direct sun; the blades often black, pictures up to 12 megapixels.
+enum class Difficulty { kClean, kStandard, kHard, kSun };
 
 // The scene number `seed`: scissors, pose, camera, light and backdrop drawn from the range that the
 // difficulty spans. All can be measured; see validate for scenes that must be refused. The same

@@ -137,7 +137,7 @@ TEST(WorkPrecisionSvg, OfNoMeasuredSceneIsEmptyButValid) {
 
 TEST(MakeValidationScene, RefusesEveryTenthSceneForItsOwnReason) {
   for (const Difficulty difficulty :
-       {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard}) {
+       {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard, Difficulty::kSun}) {
     for (int number = 0; number < 60; ++number) {
       const ValidationScene scene = MakeValidationScene(number, 3, difficulty);
       ASSERT_EQ(scene.refuse.has_value(), number % 10 == 9) << number;

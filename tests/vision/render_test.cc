@@ -275,7 +275,7 @@ TEST(EncodeJpeg, RejectsWhatIsNoPicture) {
 
 TEST(RandomScene, CanBeMeasured) {
   for (const Difficulty difficulty :
-       {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard}) {
+       {Difficulty::kClean, Difficulty::kStandard, Difficulty::kHard, Difficulty::kSun}) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       const SceneSpec scene = RandomScene(seed, difficulty);
       const SceneTruth truth = TruthOf(scene);
@@ -293,6 +293,23 @@ TEST(RandomScene, CanBeMeasured) {
       }
     }
   }
+}
+
+TEST(RandomScene, CastsHardShadowsInTheSun) {
+  constexpr int kScenes = 100;
+  int black = 0, large = 0;
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    const SceneSpec scene = RandomScene(seed, Difficulty::kSun);
+    EXPECT_GE(scene.light.shadow, 0.5) << seed;
+    EXPECT_LE(scene.light.shadow_blur_mm, 0.6) << seed;
+    EXPECT_NE(scene.backdrop, Backdrop::kLightTable) << seed;
+    EXPECT_NE(scene.backdrop, Backdrop::kCutOut) << seed;
+    EXPECT_EQ(scene.height * 4, scene.width * 3) << seed;
+    if (scene.finish == Finish::kBlack) ++black;
+    if (scene.width > 4000) ++large;
+  }
+  EXPECT_GT(black, kScenes / 5);
+  EXPECT_GT(large, kScenes / 20);
 }
 
 TEST(RandomScene, DependsOnItsSeedAlone) {
