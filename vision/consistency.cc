@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "vision/refused.h"
@@ -104,10 +105,11 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
 void RefuseEdgesShortOfPivot(const Pivot& pivot) {
   const double shorter = pivot.overlap + pivot.overlap_sigma - 0.5 * std::abs(pivot.asymmetry);
   if (pivot.source != "screw" || shorter >= 0) return;
-  throw Refused(Reason::kNotScissors,
-                "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
-                "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
-                "or a shadow hides that edge: use another background or light");
+  throw Refused(
+      Reason::kNotScissors,
+      "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
+      "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
+      "or a shadow hides that edge: use another background or light");
 }
 
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
@@ -153,6 +155,17 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
     if (!AreAlike(pivot.asymmetry + moved)) continue;
     Doubt(&edge, kShare * edge.rival_px);
+  }
+}
+
+void DoubtSharperThanPrint(const ScaleResult& scale, Blades* blades) {
+  constexpr double kSharper = 0.7;  // ratio of the blurs; of good edges 99 in 100 exceed 0.78
+  constexpr double kOffPx = 1;      // at least
+  const std::optional<double> print_px = PrintBlurPx(scale.markers);
+  if (!print_px) return;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    LocatedEdge& edge = blade->edge;
+    if (edge.blur_px < kSharper * *print_px) Doubt(&edge, kOffPx);
   }
 }
 

@@ -92,15 +92,6 @@ bool IsShadowsBorder(const LocatedEdge& edge, double most_blur_px) {
          TypicalContrast(edge) > 0;
 }
 
-// Of the markers' sides: the blade's edge, nearer to the camera by a plate or so, is as sharp.
-double MostBlur(const std::vector<SeenMarker>& markers) {
-  std::vector<double> blurs;
-  for (const SeenMarker& marker : markers) {
-    if (std::isfinite(marker.blur_px)) blurs.push_back(marker.blur_px);
-  }
-  return blurs.empty() ? EdgeOptions{}.most_blur_px : Median(std::move(blurs));
-}
-
 double InlyingShare(const LocatedEdge& edge) {
   const auto inlying = std::count_if(edge.points.begin(),
                                      edge.points.end(),
@@ -136,7 +127,8 @@ class BladeLocator {
  public:
   BladeLocator(const Photo& photo, const ScaleResult& scale, const Scene& scene)
       : photo_(photo), tone_(scale.tone), scene_(scene) {
-    options_.most_blur_px = MostBlur(scale.markers);
+    // A blade's edge, nearer to the camera than print by a plate or so, is as sharp.
+    options_.most_blur_px = PrintBlurPx(scale.markers).value_or(options_.most_blur_px);
   }
 
   // Where grey hides the edge, the mixture of the colours in which blade and background differ most

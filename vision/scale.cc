@@ -5,8 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 #include "vision/sheet_scale.h"
 
 namespace bladecurve {
@@ -63,6 +66,15 @@ bool SaysUniform(const ScaleOptions& options) {
 }
 
 }  // namespace
+
+std::optional<double> PrintBlurPx(const std::vector<SeenMarker>& markers) {
+  std::vector<double> blurs;
+  for (const SeenMarker& marker : markers) {
+    if (std::isfinite(marker.blur_px)) blurs.push_back(marker.blur_px);
+  }
+  if (blurs.empty()) return std::nullopt;
+  return Median(std::move(blurs));
+}
 
 ScaleResult FindScale(const Photo& photo, const ScaleOptions& options) {
   CheckOptions(options);

@@ -59,6 +59,10 @@ struct ScaleResult {
   ToneCurve tone;  // sRGB, with what is uncertain about it
 };
 
+// Of the markers' sides, typically: how sharp the photograph is at about the blades' distance.
+// Gaussian sigma, px, pixel box apart. std::nullopt without markers.
+[[nodiscard]] std::optional<double> PrintBlurPx(const std::vector<SeenMarker>& markers);
+
 // Throws Refused{kNoScale} where nothing says how many mm a pixel is, std::invalid_argument for
 // contradictory options.
 [[nodiscard]] ScaleResult FindScale(const Photo& photo, const ScaleOptions& options);

@@ -161,5 +161,21 @@ TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
 }
 
+TEST(DoubtSharperThanPrint, DoubtsWhatNoLensShows) {
+  ScaleResult scale;
+  scale.markers.resize(3);
+  for (SeenMarker& marker : scale.markers) marker.blur_px = 1.0;
+  Blades blades = BladesWithRivals(0, 0);
+  blades.upper.edge.blur_px = 0.5;
+  blades.lower.edge.blur_px = 0.9;
+  Blades freely = blades;
+  DoubtSharperThanPrint(scale, &blades);
+  EXPECT_GT(blades.upper.edge.ambiguity, 0.5);
+  EXPECT_GE(blades.upper.edge.common_sigma_px, 1);
+  EXPECT_EQ(blades.lower.edge.ambiguity, 0);
+  DoubtSharperThanPrint(ScaleResult{}, &freely);
+  EXPECT_EQ(freely.upper.edge.ambiguity, 0) << "without print nobody knows";
+}
+
 }  // namespace
 }  // namespace bladecurve
