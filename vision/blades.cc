@@ -232,9 +232,12 @@ std::optional<BladePair> PairAt(const Silhouette& silhouette,
   if (pair.quality <= 0) return std::nullopt;
   const std::vector<Vector2d> first = outline.Arc(ends->tip_second_at, back);
   const std::vector<Vector2d> second = outline.Arc(back, ends->tip_first_at);
-  GradeShanks(DescribeShank(silhouette, hidden, first, ends->shank_first, *pair.shank_crotch),
-              DescribeShank(silhouette, hidden, second, ends->shank_second, *pair.shank_crotch),
-              &pair);
+  const ShankEnd shank_first =
+      DescribeShank(silhouette, hidden, first, ends->shank_first, *pair.shank_crotch);
+  const ShankEnd shank_second =
+      DescribeShank(silhouette, hidden, second, ends->shank_second, *pair.shank_crotch);
+  GradeShanks(shank_first, shank_second, &pair);
+  pair.shanks_run_out = shank_first.cut_off && shank_second.cut_off;
   if (pair.quality <= 0) return std::nullopt;
   PlacePivot(silhouette.filled, &pair);
   const double wider = std::max(pair.first.width, pair.second.width);

@@ -19,6 +19,7 @@ struct BladePair {
   Eigen::Vector2d crotch;
   std::optional<Eigen::Vector2d> shank_crotch;  // the concavity opposite, between the shanks
   Eigen::Vector2d shank_first, shank_second;    // the shanks' ends
+  bool shanks_run_out = false;                  // both, of the picture
   Eigen::Vector2d pivot;                        // centre of the overlap: where the members cross
   double pivot_sigma = 0;
   double shank_width = 0;  // of the members near the pivot

@@ -146,6 +146,13 @@ void RefuseUnlessUsable(const LadderResult& ladder) {
     throw Refused(Reason::kBladesNotVisible,
                   "scene: a blade runs out of the picture; both tips must be inside the frame");
   }
+  // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71.
+  constexpr double kTapers = 0.85;
+  if (pair.shanks_run_out && std::max(pair.first.taper, pair.second.taper) > kTapers) {
+    throw Refused(Reason::kBladesNotVisible,
+                  "scene: what does not run out of the picture does not taper as blades do; if these "
+                  "are the shanks, take a picture with both tips inside the frame");
+  }
   if (ladder.several) {
     throw Refused(Reason::kSeveralScissors,
                   "scene: more than one pair of scissors; choose one with --roi X,Y,W,H");

@@ -241,6 +241,16 @@ TEST(FindScene, RefusesTipsThatAreCutOff) {
             "blades_not_visible");
 }
 
+// What is left of them ends inside the frame, as blades do.
+TEST(FindScene, TakesNoShanksForBladesWhoseTipsAreCutOff) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const double pivot = photo.truth.pivot_px.x();
+  const double tip = std::min(photo.truth.upper.end_px.x(), photo.truth.lower.end_px.x());
+  cv::Mat picture = photo.bgr.colRange(0, static_cast<int>(pivot + 0.75 * (tip - pivot))).clone();
+  picture.colRange(0, static_cast<int>(pivot - 200)) = cv::mean(photo.bgr.col(0));
+  EXPECT_EQ(ReasonFor(picture), "blades_not_visible");
+}
+
 TEST(FindScene, RefusesTwoPairsOfScissors) {
   const cv::Mat one = RenderScene(SmallScene()).bgr;
   cv::Mat two;
