@@ -82,7 +82,9 @@ QuantityErrors ThetaErrors(const FittedPhoto& photo, const SceneTruth& truth) {
   return {.size = std::abs(error), .stated = {{error, photo.theta_sigma_rad * kDegPerRad}}};
 }
 
+// Of a scale that was measured; one that was given is right.
 QuantityErrors ScaleErrors(double mm_per_px, double sigma, const SceneTruth& truth) {
+  if (truth.markers.empty()) return {};
   const double error = 1e6 * (mm_per_px / truth.mm_per_px - 1);
   return {.size = std::abs(error), .stated = {{error, 1e6 * sigma / truth.mm_per_px}}};
 }

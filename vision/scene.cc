@@ -150,8 +150,8 @@ void RefuseUnlessUsable(const LadderResult& ladder) {
   constexpr double kTapers = 0.85;
   if (pair.shanks_run_out && std::max(pair.first.taper, pair.second.taper) > kTapers) {
     throw Refused(Reason::kBladesNotVisible,
-                  "scene: what does not run out of the picture does not taper as blades do; if these "
-                  "are the shanks, take a picture with both tips inside the frame");
+                  "scene: what stays in the picture does not taper as blades do; if these are the "
+                  "shanks, take a picture with both tips inside the frame");
   }
   if (ladder.several) {
     throw Refused(Reason::kSeveralScissors,
