@@ -105,11 +105,10 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
 void RefuseEdgesShortOfPivot(const Pivot& pivot) {
   const double shorter = pivot.overlap + pivot.overlap_sigma - 0.5 * std::abs(pivot.asymmetry);
   if (pivot.source != "screw" || shorter >= 0) return;
-  throw Refused(
-      Reason::kNotScissors,
-      "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
-      "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
-      "or a shadow hides that edge: use another background or light");
+  throw Refused(Reason::kNotScissors,
+                "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
+                "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
+                "or a shadow hides that edge: use another background or light");
 }
 
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
@@ -159,7 +158,7 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
 }
 
 void DoubtSharperThanPrint(const ScaleResult& scale, Blades* blades) {
-  constexpr double kSharper = 0.7;  // ratio of the blurs; of good edges 99 in 100 exceed 0.78
+  constexpr double kSharper = 0.7;  // of the blurs; of good edges in the sun 99 % exceed 0.78
   constexpr double kOffPx = 1;      // at least
   const std::optional<double> print_px = PrintBlurPx(scale.markers);
   if (!print_px) return;

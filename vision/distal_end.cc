@@ -15,7 +15,6 @@ using Eigen::Vector2d;
 constexpr int kSmooth = 4;  // a cubic: cutting edges bend no more than that over their length
 constexpr double kProximalFrom = 0.06;  // the crotch may still be blurred there
 constexpr double kEarliest = 0.70;      // tips round off in the last third at most
-constexpr double kClearRival = 1;       // px of scatter
 
 // The edge in the frame of its chord: position along it in [0, 1] of its length, offset across it
 // in px, towards the blade.
@@ -116,8 +115,8 @@ DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double 
   return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
 }
 
-// `edge_step` as from StepAlong: an arc across which the picture steps the other way is rather that
-// of a shadow.
+// `edge_step` as from FollowStep: an arc across which the picture steps the other way is rather
+// that of a shadow.
 DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap, double edge_step) {
   // The arc's start is known to a few tenths of its radius: real tips are not quite round.
   DistalEnd end =
@@ -158,6 +157,17 @@ bool IsCertain(const TipCap& cap) {
   return cap.seen >= kMany || (cap.seen >= kSome && cap.scatter_px < kRound);
 }
 
+// The arc at another place than the presumed tip, if it is clear.
+std::optional<TipCap> ClearCapAt(const Vector2d& place_px,
+                                 const cv::Mat& grey,
+                                 const std::vector<Vector2d>& edge,
+                                 TipSearch search) {
+  constexpr double kClearArc = 1;  // px of scatter
+  search.tip_px = place_px;
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
+  return cap && cap->scatter_px < kClearArc ? cap : std::nullopt;
+}
+
 // An arc elsewhere than at the presumed tip, where the step across the edge ends: grain or a shadow
 // may have been taken for metal, or a part of the blade for background.
 std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
@@ -166,10 +176,7 @@ std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
                                    const std::optional<Vector2d>& step_end_px) {
   if (!step_end_px || (*step_end_px - presumed.tip_px).norm() < presumed.reach_px)
     return std::nullopt;
-  TipSearch search = presumed;
-  search.tip_px = *step_end_px;
-  const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
-  return cap && cap->scatter_px < kClearRival ? cap : std::nullopt;
+  return ClearCapAt(*step_end_px, grey, edge, presumed);
 }
 
 // Arcs before the presumed tip, up to a blade's width, at which the picture steps as it does across
@@ -178,14 +185,12 @@ std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
                                   const std::vector<Vector2d>& edge,
                                   const TipSearch& presumed,
                                   double edge_step) {
+  const Vector2d along = AlongChord(edge);
   std::vector<DistalEnd> ends;
-  TipSearch search = presumed;
   for (double back_px = presumed.reach_px; back_px < presumed.blade_width_px + presumed.reach_px;
        back_px += presumed.reach_px) {
-    search.tip_px = presumed.tip_px - back_px * AlongChord(edge);
-    const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
-    if (cap && cap->scatter_px < kClearRival && cap->step * edge_step > 0)
-      ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
+    const auto cap = ClearCapAt(presumed.tip_px - back_px * along, grey, edge, presumed);
+    if (cap && cap->step * edge_step > 0) ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
   }
   return ends;
 }
@@ -203,19 +208,23 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const bool clear = cap && cap->scatter_px < kClearArc;
-  const double step = StepAlong(grey, edge, search.tip);
-  const std::optional<Vector2d> step_end_px = FollowStep(grey, edge, search.tip, step);
-  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, step_end_px);
-  const bool unlikely = !clear || cap->step * step < 0;
-  std::vector<DistalEnd> rivals;
-  if (unlikely) rivals = EndsBefore(grey, edge, search.tip, step);
-  if (rival) rivals.push_back(EndAtSeenCap(edge, *rival, step));
-  if (clear) return {EndAtSeenCap(edge, *cap, step), rivals};
+  const FollowedStep followed = FollowStep(grey, edge, search.tip);
+  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
+  const auto and_rival = [&](std::vector<DistalEnd> ends) {
+    if (rival) ends.push_back(EndAtSeenCap(edge, *rival, followed.step));
+    return ends;
+  };
+  const auto before = [&] { return EndsBefore(grey, edge, search.tip, followed.step); };
+  if (clear) {
+    const DistalEnd end = EndAtSeenCap(edge, *cap, followed.step);
+    return {end, and_rival(end.evidence > 0 ? std::vector<DistalEnd>{} : before())};
+  }
   // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
   // mirror the background.
   const bool beyond = rival && (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
-  if (rival && (beyond || IsCertain(*rival))) return {EndAtSeenCap(edge, *rival, step), {}};
-  return {EndWithoutCap(edge, search, step_end_px), rivals};
+  if (rival && (beyond || IsCertain(*rival)))
+    return {EndAtSeenCap(edge, *rival, followed.step), {}};
+  return {EndWithoutCap(edge, search, followed.end_px), and_rival(before())};
 }
 
 }  // namespace bladecurve

@@ -248,22 +248,22 @@ void LieInSun(Dice* dice, SceneSpec* scene) {
 
 }  // namespace
 
-SceneSpec RandomScene(std::uint64_t seed, Difficulty wanted) {
-  const bool sun = wanted == Difficulty::kSun;
-  const Difficulty difficulty = sun ? Difficulty::kHard : wanted;
+SceneSpec RandomScene(std::uint64_t seed, Difficulty difficulty) {
+  const bool sun = difficulty == Difficulty::kSun;
+  const Difficulty range = sun ? Difficulty::kHard : difficulty;
   Dice dice(seed);
   SceneSpec scene;
   scene.width = dice.OneOf({1600, 2000});
   scene.height = scene.width * 3 / 4;
-  scene.scissors = RandomScissors(&dice, difficulty);
-  const bool hard = difficulty == Difficulty::kHard;
+  scene.scissors = RandomScissors(&dice, range);
+  const bool hard = range == Difficulty::kHard;
   scene.theta_rad = dice.Between(hard ? 8 : 14, hard ? 70 : 45) * kDegree;
   scene.heading_rad = dice.Between(0, 2 * std::numbers::pi);
   scene.edge_height_mm = dice.Between(1.0, 3.5);
-  Photograph(&dice, difficulty, &scene);
+  Photograph(&dice, range, &scene);
   Frame(&dice, &scene);
-  Light(&dice, difficulty, &scene);
-  Lay(&dice, difficulty, &scene);
+  Light(&dice, range, &scene);
+  Lay(&dice, range, &scene);
   if (sun) LieInSun(&dice, &scene);
   scene.seed = dice.Bits();
   if (scene.backdrop == Backdrop::kCutOut) {

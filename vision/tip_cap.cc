@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kFewestPoints = 12;  // fewer say nothing about where the edge goes on
-constexpr double kLastPart = 0.2;          // of the edge's length, where its step is taken
 
 // The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
 struct EdgeAxis {
@@ -200,9 +199,15 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
   return TipCap{axis.At(best.start, 0), best.radius, best.scatter, best.seen, best.step};
 }
 
-double StepAlong(const cv::Mat& grey, const std::vector<Vector2d>& edge, const TipSearch& search) {
+FollowedStep FollowStep(const cv::Mat& grey,
+                        const std::vector<Vector2d>& edge,
+                        const TipSearch& search) {
+  constexpr double kLastPart = 0.2;  // of the edge's length
+  constexpr double kShare = 0.4;     // of the step there is still a step
+  constexpr double kLost = 8;        // px without one
   constexpr double kLeastGrey = 8;
-  if (edge.size() < kFewestPoints) return 0;
+  constexpr double kFurthest = 1.5;  // edge's lengths
+  if (edge.size() < kFewestPoints) return {};
   const EdgeAxis axis = ContinueEdge(edge, search);
   const double last = (edge.back() - axis.origin).dot(axis.along);
   std::vector<double> steps;
@@ -210,27 +215,15 @@ double StepAlong(const cv::Mat& grey, const std::vector<Vector2d>& edge, const T
     if (const auto step = StepAcross(grey, axis, t)) steps.push_back(*step);
   }
   const double usual = Median(steps);
-  return std::abs(usual) > kLeastGrey ? usual : 0;
-}
-
-std::optional<Vector2d> FollowStep(const cv::Mat& grey,
-                                   const std::vector<Vector2d>& edge,
-                                   const TipSearch& search,
-                                   double usual_step) {
-  constexpr double kShare = 0.4;     // of the step there is still a step
-  constexpr double kLost = 8;        // px without one
-  constexpr double kFurthest = 1.5;  // edge's lengths
-  if (edge.size() < kFewestPoints || usual_step == 0) return std::nullopt;
-  const EdgeAxis axis = ContinueEdge(edge, search);
-  const double last = (edge.back() - axis.origin).dot(axis.along);
+  if (!(std::abs(usual) > kLeastGrey)) return {};
   double seen = (1 - kLastPart) * last;
   for (double t = seen; t < kFurthest * last; ++t) {
     const auto step = StepAcross(grey, axis, t);
-    if (!step) return std::nullopt;
-    if (*step / usual_step > kShare) seen = t;
-    if (t - seen > kLost) return axis.At(seen, 0);
+    if (!step) return {usual, std::nullopt};
+    if (*step / usual > kShare) seen = t;
+    if (t - seen > kLost) return {usual, axis.At(seen, 0)};
   }
-  return std::nullopt;
+  return {usual, std::nullopt};
 }
 
 TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {

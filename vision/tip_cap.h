@@ -40,18 +40,19 @@ struct TipSearch {
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
 
-// Grey values outside the edge less those inside along its last part, typically; 0 where it does
-// not stand out.
-[[nodiscard]] double StepAlong(const cv::Mat& grey,
-                               const std::vector<Eigen::Vector2d>& edge,
-                               const TipSearch& search);
+// The step across an edge, followed along it.
+struct FollowedStep {
+  // Grey values outside the edge less those inside along its last part, typically; 0 where it does
+  // not stand out.
+  double step = 0;
+  // The last point of the edge, continued, at which there is a step like that. std::nullopt where
+  // it goes on to the picture's border, or stood out nowhere.
+  std::optional<Eigen::Vector2d> end_px;
+};
 
-// The last point of the edge, continued, at which there is a step across it like `usual_step`, as
-// from StepAlong. std::nullopt where it goes on to the picture's border, or stood out nowhere.
-[[nodiscard]] std::optional<Eigen::Vector2d> FollowStep(const cv::Mat& grey,
-                                                        const std::vector<Eigen::Vector2d>& edge,
-                                                        const TipSearch& search,
-                                                        double usual_step);
+[[nodiscard]] FollowedStep FollowStep(const cv::Mat& grey,
+                                      const std::vector<Eigen::Vector2d>& edge,
+                                      const TipSearch& search);
 
 // What tips usually are, where no arc shows: a tenth of the blade's width in radius, from the edge
 // continued to `search.tip_px`. Good to about its radius along the edge; `seen` is 0. `edge` holds

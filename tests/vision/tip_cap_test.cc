@@ -81,8 +81,7 @@ TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
   for (const double presumed : {250.0, 300.0, 330.0}) {
     TipSearch search = kSearch;
     search.tip_px.x() = presumed;
-    const cv::Mat picture = Blade(kRadius);
-    const auto lost = FollowStep(picture, edge, search, StepAlong(picture, edge, search));
+    const auto lost = FollowStep(Blade(kRadius), edge, search).end_px;
     ASSERT_TRUE(lost) << presumed;
     EXPECT_NEAR(lost->x(), kTip - kRadius / 2, kClosePx) << presumed;
   }
