@@ -125,7 +125,7 @@ Scene SceneFrom(const Candidate& found) {
   return scene;
 }
 
-void RefuseUnlessUsable(const LadderResult& ladder) {
+void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
   if (!ShowsWholeBlades(ladder) && ladder.closed) {
     throw Refused(Reason::kClosed,
                   "scene: the scissors are closed, or the gap between the blades looks like the "
@@ -148,10 +148,12 @@ void RefuseUnlessUsable(const LadderResult& ladder) {
   }
   // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71.
   constexpr double kTapers = 0.85;
-  if (pair.shanks_run_out && std::max(pair.first.taper, pair.second.taper) > kTapers) {
+  const double taper = std::max(pair.first.taper, pair.second.taper);
+  if (pair.shanks_run_out && taper > kTapers && !hints.tips_direction) {
     throw Refused(Reason::kBladesNotVisible,
                   "scene: what stays in the picture does not taper as blades do; if these are the "
-                  "shanks, take a picture with both tips inside the frame");
+                  "shanks, take a picture with both tips inside the frame; if they are the blades, "
+                  "say where their tips point: --tips-toward left, right, up or down");
   }
   if (ladder.several) {
     throw Refused(Reason::kSeveralScissors,
@@ -173,7 +175,7 @@ Scene FindScene(const Photo& photo,
                 const StoredHints& hints,
                 StageLog* log) {
   const LadderResult ladder = ClimbLadder(photo, markers, hints, log);
-  RefuseUnlessUsable(ladder);
+  RefuseUnlessUsable(ladder, hints);
   RefuseClamps(ladder.best, hints);
   Scene scene = SceneFrom(ladder.best);
   if (hints.pivot_px) {

@@ -249,6 +249,9 @@ TEST(FindScene, TakesNoShanksForBladesWhoseTipsAreCutOff) {
   cv::Mat picture = photo.bgr.colRange(0, static_cast<int>(pivot + 0.75 * (tip - pivot))).clone();
   picture.colRange(0, static_cast<int>(pivot - 200)) = cv::mean(photo.bgr.col(0));
   EXPECT_EQ(ReasonFor(picture), "blades_not_visible");
+  SceneHints hints;
+  hints.tips_toward = Direction::kLeft;
+  EXPECT_NE(ReasonFor(picture, hints), "blades_not_visible") << "whoever says so is obeyed";
 }
 
 TEST(FindScene, RefusesTwoPairsOfScissors) {
