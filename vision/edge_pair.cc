@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "vision/blurred_step.h"
 #include "vision/colour_border.h"
 #include "vision/consistency.h"
 #include "vision/edge_colour.h"
@@ -78,8 +79,11 @@ bool IsTooSoft(const LocatedEdge& edge, const LocatedEdge& other, double most_bl
 // A transition beside the edge that could be the border instead, with a dark band between: shadow
 // or bevel.
 bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
-  constexpr double kNarrowest = 4;  // px; narrower bands are blur on both sides
-  return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= kNarrowest;
+  // Narrower bands are blur on both sides, or the steps' own margins.
+  constexpr double kLeast = 2.5, kMost = 4, kPerBlur = 4.5;  // px, px, standard deviations
+  const double narrowest =
+      std::clamp(kPerBlur * std::sqrt(TotalBlurVariance(edge.blur_px)), kLeast, kMost);
+  return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= narrowest;
 }
 
 bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
@@ -185,12 +189,15 @@ class BladeLocator {
   // Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
   // shadows, and both borders the bands' inner sides.
   void LeaveShadows(LocatedEdge* left, LocatedEdge* right) {
-    const auto banded = [](const LocatedEdge& edge) {
-      return HasDarkBand(edge) && edge.rival_px < 0;
+    const auto lies_outside = [](const LocatedEdge& edge) { return edge.rival_px < 0; };
+    const auto banded = [&](const LocatedEdge& edge) {
+      return HasDarkBand(edge) && (lies_outside(edge) || TypicalContrast(edge) < 0);
     };
     if (!banded(*left) || !banded(*right)) return;
-    const auto l = AlongSide(left->rival_path_px, *left, true);
-    const auto r = AlongSide(right->rival_path_px, *right, false);
+    const auto inner = [&](const LocatedEdge& edge, bool on_left) {
+      return lies_outside(edge) ? AlongSide(edge.rival_path_px, edge, on_left) : edge;
+    };
+    const std::optional<LocatedEdge> l = inner(*left, true), r = inner(*right, false);
     if (!l || !r) return;
     *left = *l;
     *right = *r;

@@ -56,10 +56,9 @@ void TrimToFree(const Photo& photo,
   points.insert(points.end(), beyond.begin(), beyond.end());
   const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
   const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
-  DistalEnds ends = FindDistalEnds(
-      photo.grey(),
-      points,
-      {{seen.tip_px, reach_px, seen.width_px, blade->on_left}, MedianSigma(blade->edge.points)});
+  TipSearch tip{seen.tip_px, reach_px, seen.width_px, blade->on_left};
+  if (std::isfinite(blade->edge.blur_px)) tip.blur_px = blade->edge.blur_px;
+  DistalEnds ends = FindDistalEnds(photo.grey(), points, {tip, MedianSigma(blade->edge.points)});
   blade->end = ends.likely;
   blade->rival_ends = std::move(ends.rivals);
   KeepFree(scene, blade);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "vision/bilinear.h"
+#include "vision/blurred_step.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -61,11 +62,16 @@ struct EndSeen {
 };
 
 // Light outside the edge less light inside, a little way off it. std::nullopt out of the picture.
-std::optional<double> StepAcross(const cv::Mat& grey, const EdgeAxis& axis, double position) {
-  constexpr double kNear = 1.5, kFar = 4.5, kSpacing = 0.5;  // px off the edge
+std::optional<double> StepAcross(const cv::Mat& grey,
+                                 const EdgeAxis& axis,
+                                 double position,
+                                 double blur_px) {
+  constexpr double kNear = 1.5, kFar = 4.5;  // standard deviations of the blur, off the edge
+  constexpr int kPlaces = 7;
+  const double deviation_px = std::sqrt(TotalBlurVariance(blur_px));
   double step = 0;
-  int count = 0;
-  for (double off = kNear; off <= kFar; off += kSpacing, ++count) {
+  for (int place = 0; place < kPlaces; ++place) {
+    const double off = deviation_px * (kNear + (kFar - kNear) * place / (kPlaces - 1));
     for (const double depth : {-off, off}) {
       const Vector2d p = axis.At(position, depth);
       if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
@@ -73,7 +79,7 @@ std::optional<double> StepAcross(const cv::Mat& grey, const EdgeAxis& axis, doub
       step += (depth < 0 ? 1 : -1) * Bilinear<uchar>(grey, p);
     }
   }
-  return step / count;
+  return step / kPlaces;
 }
 
 // The strongest step along one line, if it stands out from the others on it.
@@ -212,13 +218,13 @@ FollowedStep FollowStep(const cv::Mat& grey,
   const double last = (edge.back() - axis.origin).dot(axis.along);
   std::vector<double> steps;
   for (double t = (1 - kLastPart) * last; t < last; ++t) {
-    if (const auto step = StepAcross(grey, axis, t)) steps.push_back(*step);
+    if (const auto step = StepAcross(grey, axis, t, search.blur_px)) steps.push_back(*step);
   }
   const double usual = Median(steps);
   if (!(std::abs(usual) > kLeastGrey)) return {};
   double seen = (1 - kLastPart) * last;
   for (double t = seen; t < kFurthest * last; ++t) {
-    const auto step = StepAcross(grey, axis, t);
+    const auto step = StepAcross(grey, axis, t, search.blur_px);
     if (!step) return {usual, std::nullopt};
     if (*step / usual > kShare) seen = t;
     if (t - seen > kLost) return {usual, axis.At(seen, 0)};

@@ -26,6 +26,7 @@ struct TipSearch {
   double reach_px = 10;       // how far from there the outline may lie
   double blade_width_px = 0;  // half way along the blade
   bool blade_on_left = true;  // of the edge, as in EdgeGuess
+  double blur_px = 0.9;       // of the edge: beyond a narrow shadow beside it the ground is bright
 };
 
 // Direction of an edge from the crotch towards the tip, its last fifth left out, as that may round

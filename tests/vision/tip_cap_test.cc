@@ -87,6 +87,20 @@ TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
   }
 }
 
+// Beyond a shadow 3 px wide the ground is brighter than the blade.
+TEST(FollowStep, KnowsTheStepIntoANarrowShadow) {
+  constexpr int kShadowPx = 3;
+  constexpr double kBlurPx = 0.25;
+  constexpr uchar kBlade = 110, kShade = 60, kGround = 220;
+  cv::Mat picture(160, 340, CV_8UC1, cv::Scalar(kGround));
+  const int first_below = static_cast<int>(kEdge) + 1;
+  picture.rowRange(0, first_below) = kBlade;
+  picture.rowRange(first_below, first_below + kShadowPx) = kShade;
+  TipSearch search = kSearch;
+  search.blur_px = kBlurPx;
+  EXPECT_NEAR(FollowStep(picture, EdgeAlong(kEdge + 0.5), search).step, kShade - kBlade, 5);
+}
+
 // The small picture lost the tip: no arc where it was presumed.
 TEST(FindDistalEnds, GoesOnAsFarAsTheStepAcrossTheEdge) {
   constexpr double kRadius = 6, kShort = 40, kAlong = 2.5;
