@@ -157,14 +157,21 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   }
 }
 
-void DoubtSharperThanPrint(const ScaleResult& scale, Blades* blades) {
+void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
   constexpr double kSharper = 0.7;  // of the blurs; of good edges in the sun 99 % exceed 0.78
   constexpr double kOffPx = 1;      // at least
+  // Standard uncertainty per px of blur; of rendered edges that look so, in the sun, as many are off
+  // by less as there should be.
+  constexpr double kPerSharper = 1.5, kPerSofter = 0.7;
   const std::optional<double> print_px = PrintBlurPx(scale.markers);
   if (!print_px) return;
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     if (edge.blur_px < kSharper * *print_px) Doubt(&edge, kOffPx);
+    if (!std::isfinite(edge.unbound_blur_px)) continue;
+    const double softer_px = edge.unbound_blur_px - *print_px;
+    const double off_px = std::max(kPerSofter * softer_px, -kPerSharper * softer_px);
+    edge.common_sigma_px = std::hypot(edge.common_sigma_px, off_px);
   }
 }
 

@@ -47,6 +47,8 @@ struct LocatedEdge {
   std::vector<LocatedEdgePoint> points;  // ordered along the path; outliers stay, marked
   double blur_px =
       std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma of the edge, pixel box apart
+  // What it would be if nothing bounded it; NaN in a mixture of colours, whose edges are softer.
+  double unbound_blur_px = std::numeric_limits<double>::quiet_NaN();
   double overexposed = 0;  // share of its length beside which blade or background is plain white
   double noise = std::numeric_limits<double>::quiet_NaN();  // of a pixel, linear light
   double correlation_px = 0;   // neighbours closer than this are not independent

@@ -18,7 +18,7 @@ double NoisePerContrast(const std::vector<LevelFit>& windows, double noise) {
 
 double ImprovedBlur(double blur_px,
                     const std::vector<LevelFit>& windows,
-                    const BlurExpectation& expected,
+                    double usual_px,
                     double noise_per_contrast) {
   // A much wider step is another thing than the blade's border, as far as noise let the blur be
   // seen beforehand: noise being as high as the step, a blur of 4 looks like one of 1.
@@ -26,15 +26,15 @@ double ImprovedBlur(double blur_px,
   constexpr double kMargin = 0.25;  // px
   constexpr double kPriorInformation =
       30;  // 1/px^2; windows that know less together do not change the blur
-  std::vector<std::pair<double, double>> steps{{expected.usual_px - blur_px, kPriorInformation}};
+  std::vector<std::pair<double, double>> steps{{usual_px - blur_px, kPriorInformation}};
   for (const LevelFit& window : windows) {
     steps.emplace_back(window.spread_px,
                        window.spread_information / std::max(window.chi_square_per_pixel, 1.0));
   }
   const double step = std::clamp(WeightedMedian(std::move(steps)), -0.4 * blur_px, 0.6 * blur_px);
   const double most_share = kMostShare + kPerNoise * noise_per_contrast;
-  const double most = std::min(most_share * expected.usual_px + kMargin, expected.most_px);
-  return std::min(std::max(blur_px + step, kLeastShare * expected.usual_px), most);
+  const double most = most_share * usual_px + kMargin;
+  return std::min(std::max(blur_px + step, kLeastShare * usual_px), most);
 }
 
 }  // namespace bladecurve

@@ -155,6 +155,7 @@ struct Reduction {
                               &edge.slope_sigma_px,
                               &edge.rival_px})
       *length_px *= factor;
+    edge.unbound_blur_px = std::numeric_limits<double>::quiet_NaN();
     return edge;
   }
 };

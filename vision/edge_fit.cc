@@ -187,10 +187,9 @@ class Fitter {
 
   void UpdateBlur() {
     if (options_.blur_known) return;
-    blur_ = ImprovedBlur(blur_,
-                         windows_.fits(),
-                         {options_.blur_px, most_blur_},
-                         NoisePerContrast(windows_.fits(), Noise()));
+    unbound_blur_ = ImprovedBlur(
+        blur_, windows_.fits(), options_.blur_px, NoisePerContrast(windows_.fits(), Noise()));
+    blur_ = std::min(unbound_blur_, most_blur_);
   }
 
   [[nodiscard]] double Noise() const { return std::max(noise_.blade, noise_.ground); }
@@ -238,6 +237,7 @@ class Fitter {
     EdgeFit fit;
     fit.seen = windows_.PlacedShare();
     fit.blur_px = blur_;
+    fit.unbound_blur_px = options_.blur_known ? blur_ : unbound_blur_;
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
@@ -251,7 +251,7 @@ class Fitter {
   const cv::Mat& grey_;
   const ToneCurve& tone_;
   const EdgeFitOptions& options_;
-  double most_blur_, blur_;
+  double most_blur_, blur_, unbound_blur_ = 0;
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;

@@ -257,7 +257,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   RefuseUnconfirmedScene(scene, pivot);
   CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
-  DoubtSharperThanPrint(scale, &parts.blades);
+  DoubtUnlikePrint(scale, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
   for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) {
     KeepFree(scene, blade);

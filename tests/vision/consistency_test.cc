@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <utility>
 
 #include "vision/refused.h"
@@ -161,7 +162,7 @@ TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
 }
 
-TEST(DoubtSharperThanPrint, DoubtsWhatNoLensShows) {
+TEST(DoubtUnlikePrint, DoubtsWhatNoLensShows) {
   ScaleResult scale;
   scale.markers.resize(3);
   for (SeenMarker& marker : scale.markers) marker.blur_px = 1.0;
@@ -169,12 +170,30 @@ TEST(DoubtSharperThanPrint, DoubtsWhatNoLensShows) {
   blades.upper.edge.blur_px = 0.5;
   blades.lower.edge.blur_px = 0.9;
   Blades freely = blades;
-  DoubtSharperThanPrint(scale, &blades);
+  DoubtUnlikePrint(scale, &blades);
   EXPECT_GT(blades.upper.edge.ambiguity, 0.5);
   EXPECT_GE(blades.upper.edge.common_sigma_px, 1);
   EXPECT_EQ(blades.lower.edge.ambiguity, 0);
-  DoubtSharperThanPrint(ScaleResult{}, &freely);
+  DoubtUnlikePrint(ScaleResult{}, &freely);
   EXPECT_EQ(freely.upper.edge.ambiguity, 0) << "without print nobody knows";
+}
+
+TEST(DoubtUnlikePrint, TrustsEdgesTheLessTheLessTheyLookLikePrint) {
+  ScaleResult scale;
+  scale.markers.resize(1);
+  scale.markers[0].blur_px = 1.0;
+  const auto sigma_px = [&](double unbound_blur_px) {
+    Blades blades = BladesWithRivals(0, 0);
+    blades.upper.edge.common_sigma_px = 0.05;
+    blades.upper.edge.blur_px = 1;
+    blades.upper.edge.unbound_blur_px = unbound_blur_px;
+    DoubtUnlikePrint(scale, &blades);
+    return blades.upper.edge.common_sigma_px;
+  };
+  EXPECT_DOUBLE_EQ(sigma_px(1.0), 0.05);
+  EXPECT_NEAR(sigma_px(1.2), 0.15, 0.05) << "shadows soften";
+  EXPECT_NEAR(sigma_px(0.8), 0.3, 0.05) << "narrow shadows sharpen, and move edges more";
+  EXPECT_DOUBLE_EQ(sigma_px(std::numeric_limits<double>::quiet_NaN()), 0.05) << "in colours";
 }
 
 }  // namespace
