@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "vision/chroma.h"
+#include "vision/cross.h"
 #include "vision/pixel_light.h"
 #include "vision/robust_statistics.h"
 
@@ -162,23 +163,32 @@ struct EdgeInColours {
     return profile;
   }
 
-  // Blades taper: where much of a blade's width is too much, less of it is looked at; and where a
-  // wide shadow passes for part of it, nearly all.
+  [[nodiscard]] std::optional<Transition> TransitionOver(const Stretch& stretch,
+                                                         int inner,
+                                                         int outer) const {
+    const auto profile = ProfileAcross(stretch, inner, outer);
+    return profile ? TransitionIn(*profile) : std::nullopt;
+  }
+
+  // Blades taper: where much of a blade's width is too much, less of it is looked at; where a wide
+  // shadow passes for part of it, nearly all; and where a wide bevel passes for ground, most of the
+  // gap.
   [[nodiscard]] std::optional<Transition> TransitionAcross(const Stretch& stretch,
                                                            double blade_px,
                                                            double gap_px) const {
     constexpr double kMuch = 0.65, kLess = 0.3, kNearlyAll = 0.95;  // of the blade's width
     constexpr double kOfGap = 0.6;
     constexpr int kLeast = 6;  // rows
+    const int most_outer = static_cast<int>(kOfGap * gap_px / colours.px);
+    if (most_outer < kLeast) return std::nullopt;
+    const auto inner = [&](double of_blade) {
+      return std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
+    };
     for (const double of_blade : {kMuch, kLess, kNearlyAll}) {
-      const int inner = std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
-      const int outer = std::min(inner, static_cast<int>(kOfGap * gap_px / colours.px));
-      if (outer < kLeast) return std::nullopt;
-      const auto profile = ProfileAcross(stretch, inner, outer);
-      if (!profile) continue;
-      if (auto transition = TransitionIn(*profile)) return transition;
+      const int rows = inner(of_blade);
+      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
     }
-    return std::nullopt;
+    return TransitionOver(stretch, inner(kMuch), most_outer);
   }
 };
 
@@ -204,12 +214,12 @@ std::vector<Vector2d> Moved(const LocatedEdge& edge, const std::vector<StretchOf
   return path;
 }
 
-// Typical distance of an offset from half-way between its neighbours.
-double KinkOf(const std::vector<StretchOffset>& offsets) {
+// Typical distance of a place on the border from the line between its neighbours.
+double KinkOf(const std::vector<Vector2d>& border) {
   std::vector<double> kinks;
-  for (std::size_t k = 1; k + 1 < offsets.size(); ++k) {
-    const double between = 0.5 * (offsets[k - 1].offset_px + offsets[k + 1].offset_px);
-    kinks.push_back(std::abs(offsets[k].offset_px - between));
+  for (std::size_t k = 1; k + 1 < border.size(); ++k) {
+    const Vector2d along = (border[k + 1] - border[k - 1]).normalized();
+    kinks.push_back(std::abs(Cross(along, border[k] - border[k - 1])));
   }
   return Median(std::move(kinks));
 }
@@ -238,15 +248,18 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
   const EdgeInColours seen{colours, tone, edge};
   std::vector<StretchOffset> offsets;
   std::vector<double> certain;
+  std::vector<Vector2d> border;
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
-    const Vector2d middle = edge.points[(stretch.first + stretch.last) / 2].trend_px;
-    const auto transition = seen.TransitionAcross(stretch, blade_px, DistanceTo(other, middle));
+    const LocatedEdgePoint& middle = edge.points[(stretch.first + stretch.last) / 2];
+    const auto transition =
+        seen.TransitionAcross(stretch, blade_px, DistanceTo(other, middle.trend_px));
     if (!transition) continue;
     offsets.push_back({k, colours.px * transition->of_colour});
+    border.push_back(middle.trend_px + offsets.back().offset_px * middle.normal);
     certain.push_back(colours.px * transition->Certain());
   }
-  if (offsets.size() < kFewest || KinkOf(offsets) > kSmooth * colours.px) return std::nullopt;
+  if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px) return std::nullopt;
   return ColourBorder{Moved(edge, offsets), Median(std::move(certain))};
 }
 

@@ -165,13 +165,14 @@ TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
 }
 
 // Of the edge of OutsideABand, in light that depends on the distance from it.
-std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light) {
+std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light,
+                                         double blade_px = 60) {
   Gaussian random(4);
-  constexpr double kBladePx = 60, kGapPx = 60;
+  constexpr double kGapPx = 60;
   LocatedEdge other = OutsideABand();
   for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
   return FindColourBorder(
-      {Coloured(random, light), 1}, testing::GammaCurve(1), OutsideABand(), other, kBladePx);
+      {Coloured(random, light), 1}, testing::GammaCurve(1), OutsideABand(), other, blade_px);
 }
 
 double MeanOffset(const std::vector<Vector2d>& path_px) {
@@ -205,6 +206,40 @@ TEST(ColourBorder, LiesWhereTheBladesColourEndsNotWhereItsBevelDoes) {
     EXPECT_NEAR(MeanOffset(border->path_px), kBandPx, 1) << bevel;
     EXPECT_NEAR(border->offset_px, kBandPx, 1.5) << bevel;
   }
+}
+
+// Grey shows the border of a bevel as dark as the ground for the blade's: what is then left of the
+// blade is narrow, and the bevel all that lies near.
+TEST(ColourBorder, LiesBeyondABevelThatPassesForGround) {
+  constexpr double kWidePx = 22, kBladePx = 20;
+  const Vector3d steel(170, 165, 160), drape(90, 54, 24);
+  const auto border = BorderBeside(
+      [&](double d) {
+        return steel + Smooth(d) * -0.6 * steel + Smooth(d - kWidePx) * (drape - 0.4 * steel);
+      },
+      kBladePx);
+  ASSERT_TRUE(border);
+  EXPECT_NEAR(MeanOffset(border->path_px), kWidePx, 1);
+  EXPECT_NEAR(border->offset_px, kWidePx, 1.5);
+}
+
+// The edge was followed along the bevel's border first and then along its own.
+TEST(ColourBorder, MayBeFollowedFromAnEdgeThatLeavesIt) {
+  const Vector3d steel(170, 165, 160), drape(90, 54, 24);
+  constexpr double kBladePx = 60, kGapPx = 60;
+  Gaussian random(4);
+  const cv::Mat bgr =
+      Coloured(random, [&](double d) { return steel + Smooth(d) * (drape - steel); });
+  LocatedEdge edge = OutsideABand(), other = edge;
+  for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
+  for (std::size_t i = 0; i < edge.points.size(); ++i) {
+    const double early = 1 - static_cast<double>(i) / static_cast<double>(edge.points.size());
+    const double wave = std::sin(std::numbers::pi / 2 * static_cast<double>(i) / 10);
+    edge.points[i].trend_px -= (12 * early + 2 * wave) * kNormal;
+  }
+  const auto border = FindColourBorder({bgr, 1}, testing::GammaCurve(1), edge, other, kBladePx);
+  ASSERT_TRUE(border);
+  EXPECT_NEAR(MeanOffset(border->path_px), 0, 1);
 }
 
 TEST(ColourBorder, LeavesTheEdgeWhereColourAndLightChangeTogether) {
