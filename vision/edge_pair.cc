@@ -12,6 +12,7 @@
 #include "vision/blurred_step.h"
 #include "vision/colour_border.h"
 #include "vision/consistency.h"
+#include "vision/cross.h"
 #include "vision/edge_colour.h"
 #include "vision/edge_curve.h"
 #include "vision/edge_shadow.h"
@@ -120,6 +121,31 @@ double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other) {
   return Median(std::move(distances));
 }
 
+Vector2d DirectionOfDistalHalf(const LocatedEdge& edge) {
+  return (edge.points.back().trend_px - edge.points[edge.points.size() / 2].trend_px).normalized();
+}
+
+// How many points of an edge, from the crotch on, belong to a stretch over which the other edge
+// lies on it for longer than where edges cross: one of them was followed on along the other
+// blade's.
+std::size_t CountAlongOther(const LocatedEdge& edge, const LocatedEdge& other) {
+  constexpr double kTogetherPx = 2.5;
+  constexpr double kLonger = 3, kLeastPx = 20;
+  constexpr std::size_t kEnough = 100;  // places along the edge
+  const double sine = std::abs(Cross(DirectionOfDistalHalf(edge), DirectionOfDistalHalf(other)));
+  const std::size_t stride = 1 + edge.points.size() / kEnough;
+  std::size_t count = 0, together = 0;
+  for (std::size_t i = 0; i < edge.points.size(); i += stride) {
+    if (DistanceTo(other, edge.points[i].trend_px) > kTogetherPx) continue;
+    together += stride;
+    count = std::min(i + stride, edge.points.size());
+  }
+  const double spacing_px = (edge.points.back().trend_px - edge.points.front().trend_px).norm() /
+                            static_cast<double>(edge.points.size());
+  const double length_px = spacing_px * static_cast<double>(together);
+  return length_px > kLeastPx + kLonger * kTogetherPx / std::max(sine, 1e-6) ? count : 0;
+}
+
 LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
   const auto edge = UnlessRefused([&] { return LocateEdgeInView(view, guess); });
   return edge ? *edge : LocateEdgeInHalvedView(view, guess);
@@ -186,6 +212,15 @@ class BladeLocator {
     }
   }
 
+  // Where the edges lie on each other before they part, as along the top blade's edge over the
+  // other blade, both are looked for from there on alone.
+  void LeaveOtherBlade(LocatedEdge* left, LocatedEdge* right) {
+    const std::optional<LocatedEdge> l = BeyondOther(*left, *right, true),
+                                     r = BeyondOther(*right, *left, false);
+    if (l) *left = *l;
+    if (r) *right = *r;
+  }
+
   // Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
   // shadows, and both borders the bands' inner sides.
   void LeaveShadows(LocatedEdge* left, LocatedEdge* right) {
@@ -226,6 +261,19 @@ class BladeLocator {
   }
 
  private:
+  // std::nullopt where the other edge does not lie on this one, or too little is left of it.
+  [[nodiscard]] std::optional<LocatedEdge> BeyondOther(const LocatedEdge& edge,
+                                                       const LocatedEdge& other,
+                                                       bool left) {
+    constexpr double kSearchPx = 3;
+    const auto count = static_cast<std::ptrdiff_t>(CountAlongOther(edge, other));
+    if (count == 0) return std::nullopt;
+    const std::vector<Vector2d> path = TrendOf(edge);
+    const EdgeGuess guess{{path.begin() + count, path.end()}, left, kSearchPx};
+    if (guess.path_px.size() < 2) return std::nullopt;
+    return UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
+  }
+
   // look(view, guess) in colours that part blade and background much better than grey does, where
   // grey hides the edge, or shows it so faintly that the colours place it twice as well.
   template <typename Look>
@@ -378,6 +426,8 @@ BladeEdges LocateBlades(const Photo& photo,
       edges.lower = locator.LocateOrTrace(!upper_on_left);
     }
   });
+  locator.LeaveOtherBlade(upper_on_left ? &edges.upper : &edges.lower,
+                          upper_on_left ? &edges.lower : &edges.upper);
   locator.LeaveShadows(upper_on_left ? &edges.upper : &edges.lower,
                        upper_on_left ? &edges.lower : &edges.upper);
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "measured_blades.h"
@@ -150,6 +151,54 @@ TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
   for (const LocatedEdgePoint& point : edge.points) inlying += point.inlier;
   EXPECT_GT(inlying, 0.95 * edge.points.size());
   EXPECT_LT(FarFrom(TruthOf(spec).upper, edge.points), kClosePx);
+}
+
+// A bevel about as dark as the ground seems to part the blades as far as their joint: the lower
+// edge's trace runs along the upper edge before it comes to its own.
+TEST(LocateBlades, FollowNoEdgeOnAlongTheOther) {
+  constexpr double kSlope = 0.2, kBladePx = 70, kBevelPx = 35, kOffPx = 0.5;
+  constexpr int kHeel = 60, kCrossing = 250, kEnd = 550;
+  constexpr uchar kGround = 90, kBevel = 110, kLower = 170, kUpper = 190;
+  const auto at = [](double x, double slope, double below = 0) {
+    return Eigen::Vector2d(x, 200 + slope * (x - kCrossing) + below);
+  };
+  constexpr int kFiner = 8;
+  cv::Mat fine(400 * kFiner, 600 * kFiner, CV_8UC3, cv::Scalar::all(kGround)), bgr;
+  const auto paint = [&](double slope, double width, uchar light) {
+    std::vector<cv::Point> band;
+    for (const auto& [x, below] :
+         {std::pair(kHeel, 0.0), {kEnd, 0.0}, {kEnd, width}, {kHeel, width}}) {
+      const Eigen::Vector2d p = kFiner * (at(x, slope, below) + Eigen::Vector2d(0.5, 0.5));
+      band.emplace_back(cvRound(p.x()), cvRound(p.y()));
+    }
+    cv::fillConvexPoly(fine, band, cv::Scalar::all(light));
+  };
+  paint(kSlope, kBladePx, kLower);
+  paint(-kSlope, -kBladePx, kUpper);
+  paint(-kSlope, -kBevelPx, kBevel);
+  cv::resize(fine, bgr, {}, 1.0 / kFiner, 1.0 / kFiner, cv::INTER_AREA);
+  cv::GaussianBlur(bgr, bgr, {}, 0.8);
+
+  Scene scene;
+  for (SceneBlade* blade : {&scene.left, &scene.right}) {
+    const double slope = blade == &scene.left ? -kSlope : kSlope;
+    for (int x = kHeel + 5; x < kEnd - 5; ++x)
+      blade->inner_px.push_back(at(x, x < kCrossing ? -kSlope : slope));
+    blade->tip_px = at(kEnd, slope);
+    blade->width_px = kBladePx;
+  }
+  scene.path_sigma_px = 1;
+  ScaleOptions options;
+  options.mm_per_px = 0.15;
+  const Photo photo = Measured::PhotoOf(bgr);
+  const BladeEdges edges = LocateBlades(photo, FindScale(photo, options), scene, kUpperOnLeft);
+  for (const LocatedEdge* edge : {&edges.upper, &edges.lower}) {
+    const double slope = edge == &edges.upper ? -kSlope : kSlope;
+    for (const LocatedEdgePoint& p : edge->points) {
+      if (!p.inlier) continue;
+      EXPECT_NEAR(p.trend_px.y(), at(p.trend_px.x(), slope).y(), kOffPx) << p.trend_px.x();
+    }
+  }
 }
 
 // A soft shadow that begins at the edge looks like blur on both sides where the edge is faint.
