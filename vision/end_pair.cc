@@ -131,8 +131,12 @@ void DoubtBoth(const Comparison& both, Blades* blades) {
   SetSigma(both.lower, std::hypot(both.lower.sigma, doubt), &blades->lower);
 }
 
+// Whether an arc is seen across which the picture steps the other way than across the edge.
+bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
+
 // Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
-// of tips and borders of bevels end elsewhere on the two blades, or are fainter.
+// of tips and borders of bevels end elsewhere on the two blades, or are fainter. One arc beside an
+// end without any, where the likely one is a shadow's.
 void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   constexpr double kMoreClearly = 1.5;  // times the evidence of the likely ends
   const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
@@ -149,7 +153,8 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
   for (const DistalEnd& u : candidates(blades->upper)) {
     for (const DistalEnd& l : candidates(blades->lower)) {
       const double seen = evidence(u, l);
-      if (seen <= most || !u.arc_seen || !l.arc_seen) continue;
+      const bool both_seen = u.arc_seen && l.arc_seen;
+      if (seen <= most || !(both_seen || IsShadows(upper) || IsShadows(lower))) continue;
       most = seen;
       blades->upper.end = u;
       blades->lower.end = l;

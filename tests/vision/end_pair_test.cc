@@ -143,6 +143,17 @@ TEST(AgreeOnEnds, TakesNoRivalBesideAnEndWithoutArc) {
   EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
 }
 
+// The likely arc steps the other way than the edge does, as that of a shadow.
+TEST(AgreeOnEnds, LeavesAShadowsArcAlsoBesideAnEndWithoutArc) {
+  constexpr double kShadow = 28;  // px
+  Blades blades{BladeOnRay(true, kLength, 20, false),
+                BladeOnRay(false, kLength + kShadow, 1, true)};
+  blades.lower.rival_ends = {BladeOnRay(false, kLength, 1, true).end};
+  blades.lower.rival_ends[0].evidence = 100;
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+}
+
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
   Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
   Pivot beyond = PivotSeen();
