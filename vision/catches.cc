@@ -48,7 +48,19 @@ struct Rise {
   double along_px = 0;  // from where the shanks part
 };
 
-Rise HighestRise(const cv::Mat& filled, const Shank& shank) {
+// How much a shank's inner side leaves the line to its end in a step, typically over first..last.
+double SlopeOf(const std::vector<Run>& sides, int first, int last) {
+  constexpr int kSpan = 12;  // steps; longer than a catch
+  const auto inner = [&](int k) { return sides[static_cast<std::size_t>(k)].to; };
+  std::vector<double> slopes;
+  for (int k = first; k + kSpan <= last; ++k)
+    slopes.push_back((inner(k + kSpan) - inner(k)) / kSpan);
+  return Median(std::move(slopes));
+}
+
+// cut: the frame cuts the ring, so that the line to the shank's end leaves the shank and the corner
+// at which the ring begins rises above that line; a catch rises above the shank's own, too.
+Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   constexpr double kStep = 0.01, kFirst = 0.25;  // of the length
   constexpr int kSteps = 63;                     // rings lie beyond
   constexpr int kShankFrom = 5, kShankTo = 35;   // steps
@@ -63,14 +75,18 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank) {
     if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().to - sides.back().from);
   }
   const double width = std::max(kNarrowest, Median(std::move(widths)));
+  const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
   const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
   Rise highest;
   for (int k = kReach; k + kReach < kSteps; ++k) {
     const auto at = sides.begin() + k;
-    const Run before = *std::min_element(at - kReach, at, nearer);
-    const Run after = *std::min_element(at + 1, at + kReach + 1, nearer);
-    const double rise = (at->to - std::max(before.to, after.to)) / width;
-    const double bulge = (std::min(before.from, after.from) - at->from) / width;
+    const auto before = std::min_element(at - kReach, at, nearer);
+    const auto after = std::min_element(at + 1, at + kReach + 1, nearer);
+    double base = std::max(before->to, after->to);
+    for (const auto& beside : {before, after})
+      base = std::max(base, beside->to + slope * static_cast<double>(at - beside));
+    const double rise = (at->to - base) / width;
+    const double bulge = (std::min(before->from, after->from) - at->from) / width;
     if (bulge < kStraight && rise > highest.of_width)
       highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm()};
   }
@@ -87,10 +103,11 @@ bool ShanksCarryCatches(const cv::Mat& mask, const BladePair& pair) {
   const Vector2d& crotch = *pair.shank_crotch;
   for (const Silhouette& thing : FindSilhouettes(mask, kThings)) {
     if (!IsSetAt(thing.filled, pair.pivot)) continue;
-    const Rise first =
-        HighestRise(thing.filled, ShankTo(pair.shank_first, pair.shank_second, crotch));
-    const Rise second =
-        HighestRise(thing.filled, ShankTo(pair.shank_second, pair.shank_first, crotch));
+    const auto rise = [&](const Vector2d& end, const Vector2d& other_end) {
+      return HighestRise(thing.filled, ShankTo(end, other_end, crotch), pair.shanks_run_out);
+    };
+    const Rise first = rise(pair.shank_first, pair.shank_second);
+    const Rise second = rise(pair.shank_second, pair.shank_first);
     return std::min(first.of_width, second.of_width) > kHigh &&
            std::abs(first.along_px - second.along_px) <
                kAlike * std::max(first.along_px, second.along_px);

@@ -13,6 +13,7 @@
 
 #include "process_folder.h"
 #include "vision/blades.h"
+#include "vision/catches.h"
 #include "vision/closed_shape.h"
 #include "vision/flood.h"
 #include "vision/measure.h"
@@ -325,6 +326,28 @@ TEST(MeasurePhoto, RefusesShanksThatCarryTheCatchesOfAClamp) {
   SceneHints hints;
   hints.pivot_px = truth.pivot_px;
   EXPECT_EQ(ReasonFor(picture, hints), "");
+}
+
+// The ends of the shanks are then where the frame cuts the rings' outer rims, and the corners at
+// which the shanks meet the rings rise above the lines to there.
+TEST(ShanksCarryCatches, TakesNoRingsThatTheFrameCutsForCatches) {
+  for (const bool catches : {false, true}) {
+    cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
+    BladePair pair;
+    pair.pivot = {320, 180};
+    pair.shank_crotch = {320, 195};
+    pair.shanks_run_out = true;
+    for (const int side : {-1, 1}) {
+      const auto at = [&](int x, int y) { return cv::Point(320 + side * x, y); };
+      cv::line(mask, at(-60, 40), at(0, 180), 255, 20);
+      cv::line(mask, at(0, 180), at(108, 385), 255, 12);
+      cv::circle(mask, at(173, 405), 65, 255, 6);
+      if (catches) cv::line(mask, at(70, 310), at(55, 320), 255, 14);
+      (side < 0 ? pair.shank_first : pair.shank_second) = {320 + side * 240.0, 390};
+    }
+    mask = mask.rowRange(0, 391);
+    EXPECT_EQ(ShanksCarryCatches(mask, pair), catches);
+  }
 }
 
 TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
