@@ -70,14 +70,14 @@ ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
   return search;
 }
 
-// The same for heads smaller than usual, if the blades are so narrow that the shank looks far too
-// wide: the silhouette fills a gap beside it.
-std::optional<ScrewSearch> SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
+// The same for heads smaller than usual: small ones on broad joints; and where the blades are so
+// narrow that the shank looks far too wide, as the silhouette fills a gap beside it.
+ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kSmallest = 0.7;  // of the smallest usual head
   constexpr double kOfBlades = 2.2;  // shanks are no wider
   constexpr double kOverlap = 1.25;  // of the smallest usual head: between the two none is lost
   const double blades_px = 0.5 * (scene.left.width_px + scene.right.width_px);
-  const double share = kOfBlades * blades_px / scene.shank_width_px;
-  if (share >= 1) return std::nullopt;
+  const double share = std::min(kSmallest, kOfBlades * blades_px / scene.shank_width_px);
   ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
   search.max_semi_axis_px = kOverlap * search.min_semi_axis_px;
   search.min_semi_axis_px *= share;
@@ -190,9 +190,8 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
   }
   if (clearest) return clearest;
-  std::vector<ScrewSearch> others{SearchWideHead(known.scale, known.scene)};
-  if (const auto small = SearchSmallHead(known.scale, known.scene)) others.push_back(*small);
-  for (const ScrewSearch& search : others) {
+  for (const ScrewSearch& search :
+       {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
     const auto other = FindHere(known, search);
     if (other && (other->evidence > kUnmistakable || MirrorAbout(*other, known))) return other;
   }

@@ -57,6 +57,25 @@ TEST(FindPivot, SeesAHeadAsWideAsTheWaistSeems) {
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
 }
 
+TEST(FindPivot, SeesASmallHeadOnABroadJoint) {
+  constexpr double kClosePx = 1.5, kAsidePx = 10;
+  Measured measured{SceneWithMarkers()};
+  Scene scene = measured.scene;
+  scene.shank_width_px = 92;  // the head is 21 px wide
+  scene.left.width_px = scene.right.width_px = 50;
+  ASSERT_FALSE(LookAtJoint(measured.photo.grey(), measured.scale, scene));
+  const auto found = [&] {
+    const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+    return FindPivot(
+        measured.photo.grey(), measured.scale, {scene, edges, std::nullopt, std::nullopt});
+  };
+  const Pivot pivot = found();
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+  measured.Misplace(&measured.blades.upper, kAsidePx);
+  EXPECT_EQ(found().source, "geometry") << "an engraved mark, then";
+}
+
 TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
   constexpr double kClosePx = 1.5, kAsidePx = 10;
   SceneSpec spec = SceneWithMarkers();
