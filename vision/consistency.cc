@@ -160,8 +160,7 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
   constexpr double kSharper = 0.7;  // of the blurs; of good edges in the sun 99 % exceed 0.78
   constexpr double kOffPx = 1;      // at least
-  // Standard uncertainty per px of blur; of rendered edges that look so, in the sun, as many are off
-  // by less as there should be.
+  // Standard uncertainty per px of blur, as edges rendered in the sun are off.
   constexpr double kPerSharper = 1.5, kPerSofter = 0.7;
   const std::optional<double> print_px = PrintBlurPx(scale.markers);
   if (!print_px) return;

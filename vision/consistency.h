@@ -58,9 +58,9 @@ void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
 // becomes ambiguous, and less certain by 0.6 of the way to the other transition.
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
 
-// Edges are as sharp as print at the same distance. What makes one look softer or sharper, light or a
-// shadow beside it, moves it by about as much. Much sharper than print, it is in doubt: another step
-// lies close by, as that of a narrow shadow does.
+// Edges are as sharp as print at the same distance. What makes one look softer or sharper, light or
+// a shadow beside it, moves it by about as much. Much sharper than print, it is in doubt: another
+// step lies close by, as that of a narrow shadow does.
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades);
 
 // The distal ends of edges that pass although they are no mirror images: one of the edges is

@@ -125,9 +125,9 @@ Vector2d DirectionOfDistalHalf(const LocatedEdge& edge) {
   return (edge.points.back().trend_px - edge.points[edge.points.size() / 2].trend_px).normalized();
 }
 
-// How many points of an edge, from the crotch on, belong to a stretch over which the other edge
-// lies on it for longer than where edges cross: one of them was followed on along the other
-// blade's.
+// How many points of an edge, from the crotch on, lie before the end of a stretch over which the
+// other edge lies on it for longer than where edges cross: one of them was followed on along the
+// other blade's. 0 where there is none.
 std::size_t CountAlongOther(const LocatedEdge& edge, const LocatedEdge& other) {
   constexpr double kTogetherPx = 2.5;
   constexpr double kLonger = 3, kLeastPx = 20;
