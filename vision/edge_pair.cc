@@ -224,15 +224,12 @@ class BladeLocator {
   // Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
   // shadows, and both borders the bands' inner sides.
   void LeaveShadows(LocatedEdge* left, LocatedEdge* right) {
-    const auto lies_outside = [](const LocatedEdge& edge) { return edge.rival_px < 0; };
-    const auto banded = [&](const LocatedEdge& edge) {
-      return HasDarkBand(edge) && (lies_outside(edge) || TypicalContrast(edge) < 0);
+    const auto banded = [](const LocatedEdge& edge) {
+      return HasDarkBand(edge) && edge.rival_px < 0;
     };
     if (!banded(*left) || !banded(*right)) return;
-    const auto inner = [&](const LocatedEdge& edge, bool on_left) {
-      return lies_outside(edge) ? AlongSide(edge.rival_path_px, edge, on_left) : edge;
-    };
-    const std::optional<LocatedEdge> l = inner(*left, true), r = inner(*right, false);
+    const auto l = AlongSide(left->rival_path_px, *left, true);
+    const auto r = AlongSide(right->rival_path_px, *right, false);
     if (!l || !r) return;
     *left = *l;
     *right = *r;
