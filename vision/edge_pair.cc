@@ -367,7 +367,7 @@ class BladeLocator {
   [[nodiscard]] std::optional<LocatedEdge> AlongSide(std::vector<Vector2d> side_px,
                                                      const LocatedEdge& edge,
                                                      bool left) const {
-    constexpr double kReach = 0.65, kLeast = 3;  // of the way to the other side, px
+    constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
     const EdgeGuess guess{
         std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))};
     return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, guess, options_); });
