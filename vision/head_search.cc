@@ -70,17 +70,21 @@ ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
   return search;
 }
 
-// The same for heads smaller than usual: small ones on broad joints; and where the blades are so
-// narrow that the shank looks far too wide, as the silhouette fills a gap beside it.
+// Heads smaller than usual: small ones on broad joints, where joints mostly have theirs; and all
+// about the overlap where the blades are so narrow that the shank looks far too wide, as the
+// silhouette fills a gap beside it.
 ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kAtJoint = 0.42;  // of the overlap
   constexpr double kSmallest = 0.7;  // of the smallest usual head
   constexpr double kOfBlades = 2.2;  // shanks are no wider
   constexpr double kOverlap = 1.25;  // of the smallest usual head: between the two none is lost
   const double blades_px = 0.5 * (scene.left.width_px + scene.right.width_px);
-  const double share = std::min(kSmallest, kOfBlades * blades_px / scene.shank_width_px);
-  ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
+  const double share = kOfBlades * blades_px / scene.shank_width_px;
+  ScrewSearch search =
+      share < 1 ? SearchAllAbout(scale, scene, kFaintHead) : SearchOverlap(scale, scene, kAtJoint);
+  search.least_evidence = kFaintHead;
   search.max_semi_axis_px = kOverlap * search.min_semi_axis_px;
-  search.min_semi_axis_px *= share;
+  search.min_semi_axis_px *= std::min(kSmallest, share);
   return search;
 }
 
