@@ -82,10 +82,10 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
     const auto at = sides.begin() + k;
     const auto before = std::min_element(at - kReach, at, nearer);
     const auto after = std::min_element(at + 1, at + kReach + 1, nearer);
-    double base = std::max(before->to, after->to);
-    for (const auto& beside : {before, after})
-      base = std::max(base, beside->to + slope * static_cast<double>(at - beside));
-    const double rise = (at->to - base) / width;
+    const auto base = [&](const auto& beside) {
+      return beside->to + std::max(0.0, slope * static_cast<double>(at - beside));
+    };
+    const double rise = (at->to - std::max(base(before), base(after))) / width;
     const double bulge = (std::min(before->from, after->from) - at->from) / width;
     if (bulge < kStraight && rise > highest.of_width)
       highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm()};

@@ -188,7 +188,8 @@ struct EdgeInColours {
       const int rows = inner(of_blade);
       if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
     }
-    return TransitionOver(stretch, inner(kMuch), most_outer);
+    const int rows = inner(kMuch);
+    return most_outer > rows ? TransitionOver(stretch, rows, most_outer) : std::nullopt;
   }
 };
 

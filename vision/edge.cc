@@ -164,6 +164,10 @@ double TotalSigma(const LocatedEdge& edge) {
   return std::hypot(TypicalSigma(edge.points), edge.common_sigma_px);
 }
 
+double BlurOr(const LocatedEdge& edge, double usual_px) {
+  return std::isfinite(edge.blur_px) ? edge.blur_px : usual_px;
+}
+
 std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_px) {
   const auto nearest =
       std::min_element(edge.points.begin(), edge.points.end(), [&](const auto& a, const auto& b) {

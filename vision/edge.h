@@ -66,6 +66,9 @@ struct LocatedEdge {
 // The same with what they share counted.
 [[nodiscard]] double TotalSigma(const LocatedEdge& edge);
 
+// Its blur, or what is usual where none was measured.
+[[nodiscard]] double BlurOr(const LocatedEdge& edge, double usual_px);
+
 // Of the point whose trend lies nearest to a place, in `points`.
 [[nodiscard]] std::size_t NearestPoint(const LocatedEdge& edge, const Eigen::Vector2d& place_px);
 // How far from that trend the place is.

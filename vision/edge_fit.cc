@@ -50,7 +50,8 @@ class Fitter {
         tone_(tone),
         options_(options),
         most_blur_(options.most_blur_px),
-        blur_(options.blur_known ? options.blur_px : kFirstShare * options.blur_px) {}
+        blur_(options.blur_known ? options.blur_px : kFirstShare * options.blur_px),
+        unbound_blur_(blur_) {}
 
   EdgeFit Run(const std::vector<Eigen::Vector2d>& start, bool blade_on_left) {
     constexpr double kStartSmoothing = 2, kSmoothing = 1;  // px; what was fitted is smooth already
@@ -237,7 +238,7 @@ class Fitter {
     EdgeFit fit;
     fit.seen = windows_.PlacedShare();
     fit.blur_px = blur_;
-    fit.unbound_blur_px = options_.blur_known ? blur_ : unbound_blur_;
+    fit.unbound_blur_px = unbound_blur_;
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
@@ -251,7 +252,7 @@ class Fitter {
   const cv::Mat& grey_;
   const ToneCurve& tone_;
   const EdgeFitOptions& options_;
-  double most_blur_, blur_, unbound_blur_ = 0;
+  double most_blur_, blur_, unbound_blur_;
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;

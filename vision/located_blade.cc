@@ -29,7 +29,7 @@ std::vector<Vector2d> InlierPoints(const LocatedEdge& edge) {
 
 // Nearer to the crossing, light of the other blade's edge reaches this one. px.
 double ClearOfCrossing(const LocatedEdge& edge) {
-  const double blur = std::isfinite(edge.blur_px) ? edge.blur_px : 1;
+  const double blur = BlurOr(edge, 1);
   return 4 * blur + 2;
 }
 
@@ -57,7 +57,7 @@ void TrimToFree(const Photo& photo,
   const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
   const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
   TipSearch tip{seen.tip_px, reach_px, seen.width_px, blade->on_left};
-  if (std::isfinite(blade->edge.blur_px)) tip.blur_px = blade->edge.blur_px;
+  tip.blur_px = BlurOr(blade->edge, tip.blur_px);
   DistalEnds ends = FindDistalEnds(photo.grey(), points, {tip, MedianSigma(blade->edge.points)});
   blade->end = ends.likely;
   blade->rival_ends = std::move(ends.rivals);

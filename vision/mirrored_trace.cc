@@ -204,8 +204,7 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
   const double least_odds = clear ? 16 : 8;
   const int least_parts = clear ? 7 : 4;
   constexpr double kUsualBlurPx = 0.8;
-  const double blur_px = std::isfinite(other.edge.blur_px) ? other.edge.blur_px : kUsualBlurPx;
-  const StepTest test(std::hypot(blur_px, 0.3));  // and the pixel's box
+  const StepTest test(std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3));  // and the pixel's box
   const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();
   const auto farthest = static_cast<int>((kOfDifference * difference_px + kNearestPx) / kStepPx);
   const auto turned = [&](double step) {
