@@ -27,9 +27,9 @@ PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene
 
 // A rim that is hardly seen may be seen in parts, and parts of something else. Over heads rendered
 // elsewhere the centre is off by 10 % of the radius where the odds are least, like others from odds
-// of e^15 on.
+// of e^25 on.
 double DoubtOfFaintRim(const Screw& screw) {
-  constexpr double kFaint = 5, kClear = 15, kMost = 0.1;
+  constexpr double kFaint = 5, kClear = 25, kMost = 0.1;
   return kMost * std::clamp((kClear - screw.evidence) / (kClear - kFaint), 0.0, 1.0);
 }
 
@@ -70,7 +70,11 @@ PlacePx Combined(const PlacePx& a, const PlacePx& b) {
 PlacePx CentreOf(const Screw& screw) {
   const PlacePx rim{screw.center_px, screw.covariance_px2 + ShapeCovariance(screw)};
   if (!screw.slot) return rim;
-  return Combined(rim, {screw.slot->center_px, screw.slot->covariance_px2});
+  // A slot about what is hardly seen may be none.
+  const double doubt_px = 0.5 * DoubtOfFaintRim(screw) * screw.semi_major_px;
+  return Combined(rim,
+                  {screw.slot->center_px,
+                   screw.slot->covariance_px2 + doubt_px * doubt_px * Eigen::Matrix2d::Identity()});
 }
 
 }  // namespace

@@ -75,14 +75,13 @@ ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
 // silhouette fills a gap beside it.
 ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
   constexpr double kAtJoint = 0.42;  // of the overlap
-  constexpr double kSmallest = 0.7;  // of the smallest usual head
+  constexpr double kSmallest = 0.6;  // of the smallest usual head
   constexpr double kOfBlades = 2.2;  // shanks are no wider
   constexpr double kOverlap = 1.25;  // of the smallest usual head: between the two none is lost
   const double blades_px = 0.5 * (scene.left.width_px + scene.right.width_px);
   const double share = kOfBlades * blades_px / scene.shank_width_px;
   ScrewSearch search =
       share < 1 ? SearchAllAbout(scale, scene, kFaintHead) : SearchOverlap(scale, scene, kAtJoint);
-  search.least_evidence = kFaintHead;
   search.max_semi_axis_px = kOverlap * search.min_semi_axis_px;
   search.min_semi_axis_px *= std::min(kSmallest, share);
   return search;
@@ -176,20 +175,20 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
   });
 }
 
-// Where no head was seen: one further forward; one all about the overlap, if faint then with a
-// slot; a wider or a smaller one; a half-lit one. Necks of members and engraved marks are round,
-// too, but less so than heads; about few of them the edges mirror each other.
+// Where no head was seen that can be trusted: one further forward; one all about the overlap; a
+// wider or a smaller one; a half-lit one. Necks of members and engraved marks are round, too, but
+// less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
-  constexpr double kUnmistakable = 25, kFaintSlotted = 5;
+  constexpr double kUnmistakable = 25, kFaint = 5;
   const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
   if (forward && (forward->evidence > kBeyondDoubt || MirrorAbout(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
-    const bool slotted = screw.slot && screw.slot->ends_seen;
-    return screw.evidence > kFaintHead || (slotted && MayMirrorAbout(screw, known));
+    if (screw.evidence > kFaintHead || MirrorAbout(screw, known)) return true;
+    return screw.slot && screw.slot->ends_seen && MayMirrorAbout(screw, known);
   };
   std::optional<Screw> clearest;
   for (const std::optional<Screw>& screw :
-       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, kFaintSlotted))) {
+       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, kFaint))) {
     if (!screw || !is_sure(*screw)) continue;
     if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
   }
@@ -197,19 +196,12 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
   for (const ScrewSearch& search :
        {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
     const auto other = FindHere(known, search);
-    if (other && (other->evidence > kUnmistakable || MirrorAbout(*other, known))) return other;
+    if (!other || (clearest && other->evidence < clearest->evidence)) continue;
+    if (other->evidence > kUnmistakable || MirrorAbout(*other, known)) clearest = other;
   }
+  if (clearest) return clearest;
   const auto half = FindHere(known, SearchHalfLit(known));
   return half && MirrorAbout(*half, known) ? half : std::nullopt;
-}
-
-// A head all about the overlap that outdoes a faint one about which the edges are no mirror images
-// by far: one about which they are, beyond doubt.
-Screw LessFaint(const HeadSearch& known, const Screw& seen) {
-  if (!IsFaint(seen) || !AreFarUnlike(AsymmetryAbout(seen, known))) return seen;
-  const std::optional<Screw> other =
-      FindHere(known, SearchAllAbout(known.scale, known.scene, kBeyondDoubt));
-  return other && MirrorAbout(*other, known) ? *other : seen;
 }
 
 }  // namespace
@@ -222,7 +214,8 @@ std::optional<Screw> LookAtJoint(const cv::Mat& grey,
 
 std::optional<Screw> FindHead(const HeadSearch& search) {
   const std::optional<Screw> seen = LookForScrew(search);
-  return seen ? LessFaint(search, *seen) : LookFurther(search);
+  const bool doubtful = !seen || (IsFaint(*seen) && !MayMirrorAbout(*seen, search));
+  return doubtful ? LookFurther(search) : seen;
 }
 
 }  // namespace bladecurve

@@ -33,11 +33,8 @@ void Validate(const cv::Mat& grey, const ScrewSearch& search) {
 
 // Whether both are rims of the same head, but not the same rim.
 bool Rivals(const RimEllipse& a, const RimEllipse& b) {
-  constexpr double kSameRim = 0.04, kSameHead = 0.5;  // of the radius, between the centres
-  constexpr double kMostLarger = 1.35;
-  const double radius = a.MeanRadius(), ratio = b.MeanRadius() / radius;
-  const double apart = (a.center - b.center).norm() / radius;
-  return apart > kSameRim && apart < kSameHead && ratio < kMostLarger && ratio > 1 / kMostLarger;
+  constexpr double kSameRim = 0.04;  // of the radius, between the centres
+  return OfOneHead(a, b) && (a.center - b.center).norm() > kSameRim * a.MeanRadius();
 }
 
 // The centre where several rims compete for one head (a bevelled edge, a lit recess round it):
@@ -52,7 +49,7 @@ std::vector<const FoundRim*> Competitors(const std::vector<FoundRim>& all) {
   constexpr double kUnlikely = 3;  // less evidence than the best has: odds of 20 to 1
   std::vector<const FoundRim*> rims{&all.front()};
   for (const FoundRim& found : all) {
-    const double behind = all.front().Preference() - found.Preference();
+    const double behind = all.front().preference - found.preference;
     if (behind > kUnlikely) break;
     const bool differs = std::all_of(rims.begin(), rims.end(), [&](const FoundRim* rim) {
       return Rivals(rim->fit.rim, found.fit.rim);
@@ -66,7 +63,7 @@ WeighedCenter WeighCenters(const std::vector<const FoundRim*>& rims,
                            const std::vector<RimFit>& refined) {
   std::vector<double> weights;
   for (const FoundRim* rim : rims)
-    weights.push_back(std::exp(rim->Preference() - rims.front()->Preference()));
+    weights.push_back(std::exp(rim->preference - rims.front()->preference));
   double total = 0;
   WeighedCenter weighed{Eigen::Vector2d::Zero(), Eigen::Matrix2d::Zero()};
   for (std::size_t i = 0; i < rims.size(); ++i) {

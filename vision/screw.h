@@ -31,15 +31,15 @@ struct Screw {
   double angle_rad = 0;      // of the major axis, from +x towards +y (down)
   double support = 0;        // share of the rim that is seen, 0 to 1
   double third_support = 0;  // the same of that third of the rim where it is least
-  // ln of the odds against chance by the rim alone; at least ScrewSearch::least_evidence, or less
-  // by what a slot adds.
+  // ln of the odds of a head by the rim alone; at least ScrewSearch::least_evidence, or less by what
+  // a slot adds.
   double evidence = 0;
   std::optional<ScrewSlot> slot;  // if the head has one
 };
 
-// Evidence of a head that need not be looked for any further; shadows and facets of joints reach
-// the second.
-inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
+// Evidence of a head that need not be looked for any further, and of one that shadows and facets of
+// joints do not reach.
+inline constexpr double kBeyondDoubt = 25, kFaintHead = 12;
 
 // Whether it may be one of those: they show no slot.
 [[nodiscard]] inline bool IsFaint(const Screw& screw) {
@@ -61,9 +61,10 @@ struct ScrewSearch {
   // d image / d plane of the head, of any scale, where it is known how obliquely that is seen: a
   // round head shows as an ellipse of known shape.
   std::optional<Eigen::Matrix2d> view;
-  // Below, nothing is returned: where no head is seen, shank edges, grain, cloth and lettering
-  // seldom reach 4. Blade tips, which are round, reach 13; they must not be within the radius.
-  double least_evidence = 5;
+  // Below, nothing is returned. Where no head is seen, shank edges, grain, cloth and lettering reach
+  // it in one of twenty joints, so that below kFaintHead something else must speak for a head. Blade
+  // tips are round, too; they must not be within the radius.
+  double least_evidence = 3.5;
   // Rims of which a third does not show at all count, too: light from one side leaves no more of
   // some. Tips and corners look like them.
   bool half_lit = false;

@@ -61,8 +61,8 @@ TEST(FindPivot, SeesASmallHeadOnABroadJoint) {
   constexpr double kClosePx = 1.5, kAsidePx = 10;
   Measured measured{SceneWithMarkers()};
   Scene scene = measured.scene;
-  scene.shank_width_px = 92;  // the head is 21 px wide
-  scene.left.width_px = scene.right.width_px = 50;
+  scene.shank_width_px = 110;  // the head is 21 px wide
+  scene.left.width_px = scene.right.width_px = 60;
   ASSERT_FALSE(LookAtJoint(measured.photo.grey(), measured.scale, scene));
   const auto found = [&] {
     const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
@@ -80,7 +80,7 @@ TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
   constexpr double kClosePx = 1.5, kAsidePx = 10;
   SceneSpec spec = SceneWithMarkers();
   spec.scissors.screw_radius_mm = 1.65;
-  spec.sensor.noise_grey = 1;
+  spec.sensor.noise_grey = 1.5;
   Measured measured{spec};
   const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
   const auto found = [&] {
@@ -145,15 +145,18 @@ TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther)
 
 // The head gone, but for a bright arc of a rim about a place, as a low light leaves of it.
 cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px) {
-  constexpr double kRadiusPx = 10, kHeadPx = 14, kArcDeg = 215, kMetal = 150, kGlint = 230;
+  constexpr double kRadiusPx = 10, kHeadPx = 14, kArcDeg = 215, kGlint = 230;
+  constexpr int kBroaderThanHead = 41;
   constexpr int kFractionBits = 6;
-  cv::Mat grey = measured.photo.grey().clone();
+  cv::Mat grey = measured.photo.grey().clone(), metal, head(grey.size(), CV_8U, cv::Scalar(0));
   const auto fixed = [](double px) {
     return static_cast<int>(std::lround(std::ldexp(px, kFractionBits)));
   };
   const auto point = [&](const Vector2d& at) { return cv::Point(fixed(at.x()), fixed(at.y())); };
   const int line = cv::LINE_AA, shift = kFractionBits;
-  cv::circle(grey, point(measured.truth.screw_px), fixed(kHeadPx), kMetal, cv::FILLED, line, shift);
+  cv::circle(head, point(measured.truth.screw_px), fixed(kHeadPx), 255, cv::FILLED, line, shift);
+  cv::medianBlur(grey, metal, kBroaderThanHead);
+  metal.copyTo(grey, head);
   const cv::Size axes(fixed(kRadiusPx), fixed(kRadiusPx));
   cv::ellipse(grey, point(center_px), axes, 0, 0, kArcDeg, kGlint, 2, line, shift);
   return grey;

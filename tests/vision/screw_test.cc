@@ -387,6 +387,38 @@ TEST(FindScrew, MostFaintRingsBetweenBrightEdgesAreFound) {
   EXPECT_GE(CountRingsFound(0.012, 1.5) + CountRingsFound(0.02, 1.4), 0.875 * 2 * kRings);
 }
 
+// A glossy head: a groove on one side, a glint on another, no more than another shade on the third.
+cv::Mat RimUnlikeAllRound(HeadSpec head) {
+  head.groove = -0.03;
+  cv::Mat grey = RenderHead(head);
+  head.groove = 0.08;
+  const cv::Mat glint = RenderHead(head);
+  head.groove = 0;
+  head.disc = 0.03;
+  const cv::Mat shade = RenderHead(head);
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x) {
+      const double angle = std::atan2(y - head.center_px.y(), x - head.center_px.x());
+      if (angle < -1) grey.at<uchar>(y, x) = glint.at<uchar>(y, x);
+      if (angle > 1) grey.at<uchar>(y, x) = shade.at<uchar>(y, x);
+    }
+  }
+  return grey;
+}
+
+TEST(FindScrew, MostGlossyHeadsAreFound) {
+  constexpr std::uint32_t kHeads = 24, kFirst = 401;
+  constexpr double kClose = 0.15;  // of the radius
+  std::uint32_t found = 0;
+  for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
+    HeadSpec head = RandomHead(13, seed);
+    head.semi_minor_px = head.semi_major_px;
+    const std::optional<Screw> screw = Find(RimUnlikeAllRound(head), head);
+    if (screw && (screw->center_px - head.center_px).norm() < kClose * head.semi_major_px) ++found;
+  }
+  EXPECT_GE(found, 2 * kHeads / 3);
+}
+
 TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {
   const ToneCurve tone = SrgbToneCurve();
   const cv::Mat tiny(1, 1, CV_8UC1, cv::Scalar(7)), flat(50, 300, CV_8UC1, cv::Scalar(255));
