@@ -194,47 +194,44 @@ class Octave {
   [[nodiscard]] SteepestCircle SteepestNear(const RimEllipse& rim) const {
     return FindSteepest(smooth_, rim.center, rim.MeanRadius());
   }
-  static bool AreOne(const RimEllipse& rim, const SteepestCircle& steepest) {
+  // None where it is another circle than the rim.
+  static SteepestCircle OfRim(const SteepestCircle& steepest, const RimEllipse& rim) {
     constexpr double kApart = 0.15;  // of the radius
-    return (rim.center - steepest.center).norm() < kApart * steepest.radius_px;
+    const double apart = (rim.center - steepest.center).norm();
+    return apart < kApart * steepest.radius_px ? steepest
+                                               : SteepestCircle{rim.center, rim.MeanRadius()};
   }
 
   // The rim near a start, and what speaks for it. Both in picture pixels.
   [[nodiscard]] std::optional<FoundRim> Judge(const RimEllipse& start_px) const {
     std::optional<RimFit> fit = FitNear(start_px.Into(fine_.origin, fine_.scale));
     if (!fit) return std::nullopt;
-    SteepestCircle steepest = SteepestNear(fit->rim);
-    if (!AreOne(fit->rim, steepest)) {
+    const SteepestCircle steepest = SteepestNear(fit->rim);
+    if (OfRim(steepest, fit->rim).share < steepest.share) {
       const auto again = FitNear(RimEllipse::Circle(steepest.center, steepest.radius_px));
-      if (again && AreOne(again->rim, steepest)) {
-        fit = again;
-      } else {
-        steepest.share = steepest.third_share = 0;  // of something else, then
-      }
+      if (again && OfRim(steepest, again->rim).share > 0) fit = again;
     }
-    const double judged_radius = fit->rim.MeanRadius();
-    fit->rim = fit->rim.OutOf(fine_.origin, fine_.scale);
-    fit->center_covariance *= fine_.scale * fine_.scale;
-    if (!Admissible(fit->rim, search_)) return std::nullopt;
-    const double contrast =
-        field_.ScoreWithoutTangents(fit->rim.Into(coarse_.origin, coarse_.scale));
-    return Rate(*fit, contrast, steepest, judged_radius);
+    return Rate(*fit, OfRim(steepest, fit->rim));
   }
 
-  // How well a rim is fitted says which of several it is, but little of whether it is a head's.
-  [[nodiscard]] FoundRim Rate(const RimFit& fit,
-                              double contrast,
-                              const SteepestCircle& steepest,
-                              double radius) const {
+  // What speaks for a rim in pixels of the fine window. How well it is fitted says which of several
+  // it is, but little of whether it is a head's.
+  [[nodiscard]] std::optional<FoundRim> Rate(const RimFit& fit,
+                                             const SteepestCircle& steepest) const {
     constexpr LooksWeights kOfAHead{10, 0.2}, kOfTheRim{20, 0.12};
     constexpr double kLongEnough = 14;  // a longer rim is no more likely a head's
-    const bool half_lit = search_.half_lit;
     FoundRim found{fit};
+    found.fit.rim = fit.rim.OutOf(fine_.origin, fine_.scale);
+    found.fit.center_covariance *= fine_.scale * fine_.scale;
+    const RimEllipse& rim = found.fit.rim;
+    if (!Admissible(rim, search_)) return std::nullopt;
+    const double contrast = field_.ScoreWithoutTangents(rim.Into(coarse_.origin, coarse_.scale));
+    const double radius = fit.rim.MeanRadius();
+    const bool half_lit = search_.half_lit;
     found.evidence = kPriorOdds + SupportEvidence(fit, std::min(radius, kLongEnough), half_lit) +
-                     SteepestEvidence(steepest, half_lit) +
-                     LooksEvidence(fit.rim, contrast, kOfAHead);
+                     SteepestEvidence(steepest, half_lit) + LooksEvidence(rim, contrast, kOfAHead);
     found.preference = SupportEvidence(fit, radius, half_lit) +
-                       LooksEvidence(fit.rim, contrast, kOfTheRim) - UnlikeView(fit.rim, search_);
+                       LooksEvidence(rim, contrast, kOfTheRim) - UnlikeView(rim, search_);
     found.one_sided = !half_lit && std::max(fit.third_support, steepest.third_share) < kLeastThird;
     return found;
   }
@@ -254,9 +251,14 @@ class Octave {
     }
     for (const double factor : {kLarger, 1 / kLarger})
       starts.push_back(RimEllipse::Circle(center, factor * radius));
-    const auto judged = ParallelMap(static_cast<int>(starts.size()), [&](int i) {
-      return Judge(starts[static_cast<std::size_t>(i)]);
-    });
+    const SteepestCircle steepest = SteepestNear(found.fit.rim.Into(fine_.origin, fine_.scale));
+    const auto judged =
+        ParallelMap(static_cast<int>(starts.size()), [&](int i) -> std::optional<FoundRim> {
+          const RimEllipse& start = starts[static_cast<std::size_t>(i)];
+          const std::optional<RimFit> fit = FitNear(start.Into(fine_.origin, fine_.scale));
+          if (!fit) return std::nullopt;
+          return Rate(*fit, OfRim(steepest, fit->rim));
+        });
     FoundRim best = found;
     for (const std::optional<FoundRim>& rim : judged) {
       const bool one_sided = rim && rim->one_sided && !found.one_sided;

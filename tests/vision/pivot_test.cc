@@ -80,7 +80,7 @@ TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
   constexpr double kClosePx = 1.5, kAsidePx = 10;
   SceneSpec spec = SceneWithMarkers();
   spec.scissors.screw_radius_mm = 1.65;
-  spec.sensor.noise_grey = 1.5;
+  spec.sensor.noise_grey = 2.5;
   Measured measured{spec};
   const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
   const auto found = [&] {
