@@ -90,7 +90,7 @@ ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
 // A half-lit head where geometry puts the pivot: nearly all of two thirds of its rim.
 ScrewSearch SearchHalfLit(const HeadSearch& known) {
   constexpr double kSigmas = 2;
-  constexpr double kClear = 10;  // elsewhere reach 8.6
+  constexpr double kClear = 10;  // elsewhere about the joint one of 700 scenes reaches it
   const Eigen::Matrix2d& covariance = known.by_geometry.covariance_px2;
   const double sigma_px = std::sqrt(covariance.eigenvalues().real().maxCoeff());
   ScrewSearch search =
@@ -187,16 +187,18 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     return screw.slot && screw.slot->ends_seen && MayMirrorAbout(screw, known);
   };
   std::optional<Screw> clearest;
+  const auto is_clearer = [&](const Screw& screw) {
+    return !clearest || screw.evidence > clearest->evidence;
+  };
   for (const std::optional<Screw>& screw :
        FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, kFaint))) {
-    if (!screw || !is_sure(*screw)) continue;
-    if (!clearest || screw->evidence > clearest->evidence) clearest = screw;
+    if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
   }
   if (clearest) return clearest;
   for (const ScrewSearch& search :
        {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
     const auto other = FindHere(known, search);
-    if (!other || (clearest && other->evidence < clearest->evidence)) continue;
+    if (!other || !is_clearer(*other)) continue;
     if (other->evidence > kUnmistakable || MirrorAbout(*other, known)) clearest = other;
   }
   if (clearest) return clearest;

@@ -64,12 +64,13 @@ double SteepestEvidence(const SteepestCircle& steepest, bool half_lit) {
   return EvidenceOf(share, kChance, kIndependent);
 }
 
-// What else speaks for a rim. Shape: photographs are taken nearly from above. Contrast: how much it
-// stands out of its surroundings.
 struct LooksWeights {
   double contrast;
   double usual_elongation;  // spread of ln(a/b)
 };
+
+// What else speaks for a rim. Shape: photographs are taken nearly from above. Contrast: how much it
+// stands out of its surroundings.
 double LooksEvidence(const RimEllipse& rim, double contrast_score, const LooksWeights& weights) {
   constexpr double kMostContrast = 0.85;
   const Eigen::Vector2d axes = rim.SemiAxes();
@@ -194,12 +195,9 @@ class Octave {
   [[nodiscard]] SteepestCircle SteepestNear(const RimEllipse& rim) const {
     return FindSteepest(smooth_, rim.center, rim.MeanRadius());
   }
-  // None where it is another circle than the rim.
-  static SteepestCircle OfRim(const SteepestCircle& steepest, const RimEllipse& rim) {
+  static bool AreOne(const RimEllipse& rim, const SteepestCircle& steepest) {
     constexpr double kApart = 0.15;  // of the radius
-    const double apart = (rim.center - steepest.center).norm();
-    return apart < kApart * steepest.radius_px ? steepest
-                                               : SteepestCircle{rim.center, rim.MeanRadius()};
+    return (rim.center - steepest.center).norm() < kApart * steepest.radius_px;
   }
 
   // The rim near a start, and what speaks for it. Both in picture pixels.
@@ -207,22 +205,24 @@ class Octave {
     std::optional<RimFit> fit = FitNear(start_px.Into(fine_.origin, fine_.scale));
     if (!fit) return std::nullopt;
     const SteepestCircle steepest = SteepestNear(fit->rim);
-    if (OfRim(steepest, fit->rim).share < steepest.share) {
+    if (!AreOne(fit->rim, steepest)) {
       const auto again = FitNear(RimEllipse::Circle(steepest.center, steepest.radius_px));
-      if (again && OfRim(steepest, again->rim).share > 0) fit = again;
+      if (again && AreOne(again->rim, steepest)) fit = again;
     }
-    return Rate(*fit, OfRim(steepest, fit->rim));
+    return Rate(*fit, steepest);
   }
 
-  // What speaks for a rim in pixels of the fine window. How well it is fitted says which of several
-  // it is, but little of whether it is a head's.
+  // What speaks for a rim in pixels of the fine window; so does the steepest circle hereabouts if
+  // it is the rim. How well that is fitted says which of several it is, but little of whether it is
+  // a head's.
   [[nodiscard]] std::optional<FoundRim> Rate(const RimFit& fit,
-                                             const SteepestCircle& steepest) const {
+                                             const SteepestCircle& hereabouts) const {
     constexpr LooksWeights kOfAHead{10, 0.2}, kOfTheRim{20, 0.12};
     constexpr double kLongEnough = 14;  // a longer rim is no more likely a head's
     FoundRim found{fit};
     found.fit.rim = fit.rim.OutOf(fine_.origin, fine_.scale);
     found.fit.center_covariance *= fine_.scale * fine_.scale;
+    const SteepestCircle steepest = AreOne(fit.rim, hereabouts) ? hereabouts : SteepestCircle{};
     const RimEllipse& rim = found.fit.rim;
     if (!Admissible(rim, search_)) return std::nullopt;
     const double contrast = field_.ScoreWithoutTangents(rim.Into(coarse_.origin, coarse_.scale));
@@ -257,7 +257,7 @@ class Octave {
           const RimEllipse& start = starts[static_cast<std::size_t>(i)];
           const std::optional<RimFit> fit = FitNear(start.Into(fine_.origin, fine_.scale));
           if (!fit) return std::nullopt;
-          return Rate(*fit, OfRim(steepest, fit->rim));
+          return Rate(*fit, steepest);
         });
     FoundRim best = found;
     for (const std::optional<FoundRim>& rim : judged) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "vision/bilinear.h"
+
 namespace bladecurve {
 namespace {
 
@@ -48,28 +50,15 @@ struct Places {
   float step;       // between the places looked at
 };
 
-// Light at a place; beyond the picture its border repeats.
-float LightAt(const cv::Mat& smooth, float x, float y) {
-  x = std::clamp(x, 0.F, static_cast<float>(smooth.cols) - 1.01F);
-  y = std::clamp(y, 0.F, static_cast<float>(smooth.rows) - 1.01F);
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
-  const float* upper = smooth.ptr<float>(row) + column;
-  const float* lower = upper + smooth.step1();
-  const float above = upper[0] + right * (upper[1] - upper[0]);
-  const float below = lower[0] + right * (lower[1] - lower[0]);
-  return above + down * (below - above);
-}
-
 // How much light changes on the way out, a column a direction; smoothed over neighbours.
 Eigen::ArrayXXf ChangesOnTheWayOut(
     const cv::Mat& smooth, const Eigen::Vector2f& center, float first, float step, int steps) {
   Eigen::ArrayXXf light(steps + 2, kDirections);
   for (int i = 0; i < kDirections; ++i) {
-    const float x = Outwards().x[i], y = Outwards().y[i];
+    const Eigen::Vector2f outwards(Outwards().x[i], Outwards().y[i]);
     for (int k = 0; k < steps + 2; ++k) {
-      const float radius = first + step * static_cast<float>(k - 1);
-      light(k, i) = LightAt(smooth, center.x() + radius * x, center.y() + radius * y);
+      const Eigen::Vector2f place = center + (first + step * static_cast<float>(k - 1)) * outwards;
+      light(k, i) = static_cast<float>(Bilinear<float>(smooth, place.cast<double>()));
     }
   }
   const Eigen::ArrayXXf changes = light.bottomRows(steps) - light.topRows(steps);
@@ -166,7 +155,7 @@ SteepestCircle FindSteepest(const cv::Mat& smooth,
                             const Eigen::Vector2d& center,
                             double radius_px) {
   constexpr int kLooks = 5;
-  constexpr float kSame = 0.1F;
+  constexpr float kSamePx = 0.1F;
   constexpr float kMostChange = 0.3F;  // of the radius: beyond, it is another circle
   const Circle start{center.cast<float>(), static_cast<float>(radius_px)};
   Circle circle = start;
@@ -179,7 +168,7 @@ SteepestCircle FindSteepest(const cv::Mat& smooth,
     const auto change = [&](const Circle& from) {
       return std::max((next.center - from.center).norm(), std::abs(next.radius - from.radius));
     };
-    if (change(circle) < kSame || change(start) > kMostChange * start.radius) break;
+    if (change(circle) < kSamePx || change(start) > kMostChange * start.radius) break;
     circle = next;
   }
   return best;

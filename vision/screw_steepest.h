@@ -11,7 +11,7 @@ namespace bladecurve {
 // a head that is its rim, whatever that looks like: a groove here, a glint there, a step elsewhere.
 // About other places hardly more than half of these places lie on one circle.
 struct SteepestCircle {
-  Eigen::Vector2d center;  // of the circle on which most of them lie
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();  // of the circle on which most of them lie
   double radius_px = 0;
   double share = 0;        // of the directions, those whose place lies on it
   double third_share = 0;  // the same of that third of the directions where it is least

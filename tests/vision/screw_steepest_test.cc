@@ -31,15 +31,15 @@ cv::Mat GrooveAndRing(HeadSpec head) {
 }
 
 TEST(FindSteepest, FindsTheRimWhateverItLooksLike) {
-  constexpr double radius = 28;
+  constexpr double kRadius = 28;
   HeadSpec head;
-  head.semi_major_px = head.semi_minor_px = radius;
+  head.semi_major_px = head.semi_minor_px = kRadius;
   const SteepestCircle steepest = FindSteepest(
-      Smooth(GrooveAndRing(head)), head.center_px + Vector2d(0.15, -0.1) * radius, 1.1 * radius);
+      Smooth(GrooveAndRing(head)), head.center_px + Vector2d(0.15, -0.1) * kRadius, 1.1 * kRadius);
   EXPECT_GT(steepest.share, 0.85);
   EXPECT_GT(steepest.third_share, 0.6);
-  EXPECT_LT((steepest.center - head.center_px).norm(), 0.06 * radius);
-  EXPECT_NEAR(steepest.radius_px, radius, 0.08 * radius);
+  EXPECT_LT((steepest.center - head.center_px).norm(), 0.06 * kRadius);
+  EXPECT_NEAR(steepest.radius_px, kRadius, 0.08 * kRadius);
 }
 
 TEST(FindSteepest, SeesWhichThirdIsMissing) {
