@@ -39,7 +39,7 @@ struct Screw {
 
 // Evidence of a head that need not be looked for any further, and of one that shadows and facets of
 // joints do not reach.
-inline constexpr double kBeyondDoubt = 15, kFaintHead = 12;
+inline constexpr double kBeyondDoubt = 15, kFaintHead = 10;
 
 // Whether it may be one of those: they show no slot.
 [[nodiscard]] inline bool IsFaint(const Screw& screw) {
