@@ -131,18 +131,37 @@ class Octave {
                (search.guess_px - coarse_.origin) / coarse_.scale,
                Surroundings(search, min_radius_px) / coarse_.scale,
                std::numbers::sqrt2 * kOctaveRadius),
-        smooth_(Smooth(fine_.grey)),
-        rims_(FindAll()) {}
+        smooth_(Smooth(fine_.grey)) {}
 
-  [[nodiscard]] double MostEvidence() const { return rims_.empty() ? 0 : rims_.front().evidence; }
+  // In pixels of the picture.
+  [[nodiscard]] std::vector<RimCandidate> Candidates() const {
+    const OctaveSearch search{(search_.guess_px - coarse_.origin) / coarse_.scale,
+                              search_.radius_px / coarse_.scale};
+    std::vector<RimCandidate> candidates = FindRimCandidates(field_, search);
+    for (RimCandidate& candidate : candidates)
+      candidate.rim = candidate.rim.OutOf(coarse_.origin, coarse_.scale);
+    return candidates;
+  }
+
+  // The rim near a start, and what speaks for it. Both in picture pixels.
+  [[nodiscard]] std::optional<FoundRim> Judge(const RimEllipse& start_px) const {
+    std::optional<RimFit> fit = FitNear(start_px.Into(fine_.origin, fine_.scale));
+    if (!fit) return std::nullopt;
+    const SteepestCircle steepest = SteepestNear(fit->rim);
+    if (!AreOne(fit->rim, steepest)) {
+      const auto again = FitNear(RimEllipse::Circle(steepest.center, steepest.radius_px));
+      if (again && AreOne(again->rim, steepest)) fit = again;
+    }
+    return Rate(*fit, steepest);
+  }
 
   // The rims, the best one polished unless another octave has one so much better that this cannot
   // help. None where the best is round on one side only: a tip, a corner.
-  [[nodiscard]] std::vector<FoundRim> Polished(double most_evidence) const {
+  [[nodiscard]] std::vector<FoundRim> Polished(std::vector<FoundRim> rims,
+                                               double most_evidence) const {
     constexpr double kPromising = -2;  // evidence from which on a second look may find a head
     constexpr double kMostGain = 15;   // of evidence by polishing
-    if (rims_.empty()) return {};
-    std::vector<FoundRim> rims = rims_;
+    if (rims.empty()) return {};
     FoundRim best = rims.front();
     if (best.evidence > kPromising && best.evidence > most_evidence - kMostGain) {
       best = Polish(best);
@@ -155,8 +174,6 @@ class Octave {
  private:
   static constexpr double kMargin =
       3.6;  // radii of the smallest head: 2.1 of the largest and its rim
-  // Of a head's score: what shows less beside a head beyond doubt is no other rim of it.
-  static constexpr double kRivalScore = 0.7;
 
   // Where the grain of plate and ground is measured: at least three radii about.
   static double Surroundings(const ScrewSearch& search, double min_radius_px) {
@@ -170,23 +187,6 @@ class Octave {
     return smooth;
   }
 
-  // The best one first.
-  [[nodiscard]] std::vector<FoundRim> FindAll() const {
-    const OctaveSearch search{(search_.guess_px - coarse_.origin) / coarse_.scale,
-                              search_.radius_px / coarse_.scale};
-    std::vector<FoundRim> all;
-    double least_score = 0;
-    for (const RimCandidate& candidate : FindRimCandidates(field_, search)) {
-      if (candidate.score < least_score) break;
-      const auto found = Judge(candidate.rim.OutOf(coarse_.origin, coarse_.scale));
-      if (!found) continue;
-      all.push_back(*found);
-      if (found->evidence > kBeyondDoubt) least_score = kRivalScore * candidate.score;
-    }
-    PutBestFirst(all);
-    return all;
-  }
-
   // In pixels of the fine window, all of these.
   [[nodiscard]] std::optional<RimFit> FitNear(const RimEllipse& start) const {
     const double radius = start.MeanRadius();
@@ -198,18 +198,6 @@ class Octave {
   static bool AreOne(const RimEllipse& rim, const SteepestCircle& steepest) {
     constexpr double kApart = 0.15;  // of the radius
     return (rim.center - steepest.center).norm() < kApart * steepest.radius_px;
-  }
-
-  // The rim near a start, and what speaks for it. Both in picture pixels.
-  [[nodiscard]] std::optional<FoundRim> Judge(const RimEllipse& start_px) const {
-    std::optional<RimFit> fit = FitNear(start_px.Into(fine_.origin, fine_.scale));
-    if (!fit) return std::nullopt;
-    const SteepestCircle steepest = SteepestNear(fit->rim);
-    if (!AreOne(fit->rim, steepest)) {
-      const auto again = FitNear(RimEllipse::Circle(steepest.center, steepest.radius_px));
-      if (again && AreOne(again->rim, steepest)) fit = again;
-    }
-    return Rate(*fit, steepest);
   }
 
   // What speaks for a rim in pixels of the fine window; so does the steepest circle hereabouts if
@@ -270,8 +258,7 @@ class Octave {
   ScrewSearch search_;
   ScaledWindow coarse_, fine_;
   RimField field_;
-  cv::Mat smooth_;              // fine_
-  std::vector<FoundRim> rims_;  // the best first
+  cv::Mat smooth_;  // fine_
 };
 
 // Smallest radius of each octave. They overlap, as a rim near the end of one is seen better in the
@@ -282,6 +269,55 @@ std::vector<double> OctaveRadii(const ScrewSearch& search) {
   while (kLeastLarger * kApart * radii.back() < search.max_semi_axis_px)
     radii.push_back(kApart * radii.back());
   return radii;
+}
+
+using Octaves = std::vector<std::unique_ptr<const Octave>>;
+
+// A place in one of the octaves that may be a rim.
+struct Suspect {
+  std::size_t octave;
+  RimCandidate candidate;
+};
+
+// Those of the best score first.
+std::vector<Suspect> SuspectsIn(const Octaves& octaves) {
+  const auto candidates = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
+    return octaves[static_cast<std::size_t>(i)]->Candidates();
+  });
+  std::vector<Suspect> suspects;
+  for (std::size_t i = 0; i < octaves.size(); ++i) {
+    for (const RimCandidate& candidate : candidates[i]) suspects.push_back({i, candidate});
+  }
+  std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& a, const Suspect& b) {
+    return a.candidate.score > b.candidate.score;
+  });
+  return suspects;
+}
+
+// What is found near the candidates, octave by octave. What scores far less than a head beyond
+// doubt is no other rim of it.
+std::vector<std::vector<FoundRim>> JudgeAll(const Octaves& octaves) {
+  constexpr double kRivalScore = 0.7;  // of the head's
+  constexpr std::size_t kAtOnce = 4;   // whatever the number of cores, so that results are the same
+  const std::vector<Suspect> suspects = SuspectsIn(octaves);
+  std::vector<std::vector<FoundRim>> found(octaves.size());
+  double least_score = 0;
+  for (std::size_t first = 0; first < suspects.size(); first += kAtOnce) {
+    if (suspects[first].candidate.score < least_score) break;
+    const std::size_t count = std::min(kAtOnce, suspects.size() - first);
+    const auto rims = ParallelMap(static_cast<int>(count), [&](int i) {
+      const Suspect& suspect = suspects[first + static_cast<std::size_t>(i)];
+      return octaves[suspect.octave]->Judge(suspect.candidate.rim);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [octave, candidate] = suspects[first + i];
+      if (!rims[i]) continue;
+      found[octave].push_back(*rims[i]);
+      if (rims[i]->evidence > kBeyondDoubt)
+        least_score = std::max(least_score, kRivalScore * candidate.score);
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -296,14 +332,18 @@ bool OfOneHead(const RimEllipse& a, const RimEllipse& b) {
 
 std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
   const std::vector<double> radii = OctaveRadii(search);
-  const auto octaves = ParallelMap(static_cast<int>(radii.size()), [&](int i) {
+  const Octaves octaves = ParallelMap(static_cast<int>(radii.size()), [&](int i) {
     return std::make_unique<const Octave>(grey, search, radii[static_cast<std::size_t>(i)]);
   });
+  std::vector<std::vector<FoundRim>> judged = JudgeAll(octaves);
   double most_evidence = 0;
-  for (const auto& octave : octaves)
-    most_evidence = std::max(most_evidence, octave->MostEvidence());
+  for (std::vector<FoundRim>& rims : judged) {
+    PutBestFirst(rims);
+    if (!rims.empty()) most_evidence = std::max(most_evidence, rims.front().evidence);
+  }
   const auto rims = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
-    return octaves[static_cast<std::size_t>(i)]->Polished(most_evidence);
+    const auto octave = static_cast<std::size_t>(i);
+    return octaves[octave]->Polished(std::move(judged[octave]), most_evidence);
   });
   std::vector<FoundRim> all;
   for (const std::vector<FoundRim>& octave : rims)
