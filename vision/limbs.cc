@@ -185,7 +185,12 @@ ShankEnd DescribeShank(const Silhouette& silhouette,
   }
   const double middle = std::max(1.0, WidthHalfWay(silhouette.filled, shank_crotch, point));
   end.flare = widest / middle;
-  end.cut_off = RunsOutOfSight(arc, hidden, silhouette.filled.size());
+  // The arc begins at the tip of a blade, which may be out of sight itself.
+  std::vector<Vector2d> own;
+  std::copy_if(arc.begin(), arc.end(), std::back_inserter(own), [&](const Vector2d& p) {
+    return (p - shank_crotch).dot(point - shank_crotch) > 0;
+  });
+  end.cut_off = RunsOutOfSight(own, hidden, silhouette.filled.size());
   return end;
 }
 

@@ -104,7 +104,7 @@ struct ShankEnd {
   bool cut_off = false;
 };
 
-// The shank that runs along `arc` of the contour from `shank_crotch` to its end at `point`.
+// The shank between `shank_crotch` and its end at `point`, on both of which `arc` of the contour lies.
 [[nodiscard]] ShankEnd DescribeShank(const Silhouette& silhouette,
                                      const cv::Mat& hidden,
                                      const std::vector<Eigen::Vector2d>& arc,

@@ -193,6 +193,21 @@ TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
   }
 }
 
+TEST(FindBladePairs, TakesNoShanksForCutOffWhereBladesAre) {
+  cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
+  const cv::Point joint(380, 200);
+  for (const int sign : {-1, 1}) {
+    cv::line(mask, joint, {700, 200 + 120 * sign}, 255, 30);
+    cv::line(mask, joint, {160, 200 + 75 * sign}, 255, 16);
+    cv::circle(mask, {110, 200 + 92 * sign}, 50, 255, 14);
+  }
+  const std::vector<BladePair> pairs = FindBladePairs(FindSilhouettes(mask, 1).front(), {});
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_TRUE(pairs.front().first.cut_off && pairs.front().second.cut_off);
+  EXPECT_GT(pairs.front().first.tip.x(), joint.x);
+  EXPECT_FALSE(pairs.front().shanks_run_out);
+}
+
 // Blades that the frame cuts on the left, two short limbs on the right.
 TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
