@@ -144,6 +144,17 @@ Chosen InnerOne(const Pivot& pivot, Blades* blades) {
   return OneOf(blades, LiesInwards(blades->upper, pivot));
 }
 
+// A share of the blades' length, px.
+double InPx(double share, const Pivot& pivot, const Blades& blades) {
+  return share * (blades.upper.end.point_px - pivot.point_px).norm();
+}
+
+// By more than a pivot that lies a little aside makes them.
+bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
+  constexpr double kSigmas = 3;
+  return InPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * 2 * pivot.SigmaPx();
+}
+
 // The other blade's edge, mirrored, for want of a better one: as good as that, the pivot and the
 // trace are, and marked as doubtful.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
@@ -164,6 +175,7 @@ void TraceInnerOne(const MirrorView& view,
                    const Pivot& pivot,
                    Blades* blades) {
   if (pivot.screw && IsFaint(*pivot.screw)) return;
+  if (!DifferBeyondPivot(pivot, *blades)) return;
   const auto [inner, other] = InnerOne(pivot, blades);
   const Mirroring mirroring{view, pivot, other, line};
   const auto trace = FindMirroredTrace(view, inner, other, line, mirroring.WayPx());
@@ -243,11 +255,6 @@ std::optional<Relocated> LookForShape(const MirrorView& view,
   return found;
 }
 
-// A share of the blades' length, px.
-double InPx(double share, const Pivot& pivot, const Blades& blades) {
-  return share * (blades.upper.end.point_px - pivot.point_px).norm();
-}
-
 void DoubtVaguerOne(double off_px, Blades* blades) {
   const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
   Doubt(&OneOf(blades, upper_vaguer).blade.edge, off_px);
@@ -320,9 +327,8 @@ bool RelocateLostOne(const MirrorView& view, const Pivot& pivot, Blades* blades)
 
 // Edges that differ by more than a pivot that lies a little aside makes them.
 void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
-  constexpr double kSigmas = 3;
-  const double differ_px = InPx(std::abs(pivot.asymmetry), pivot, *blades);
-  if (differ_px > kSigmas * 2 * pivot.SigmaPx()) DoubtVaguerOne(differ_px, blades);
+  if (DifferBeyondPivot(pivot, *blades))
+    DoubtVaguerOne(InPx(std::abs(pivot.asymmetry), pivot, *blades), blades);
 }
 
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {

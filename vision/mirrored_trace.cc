@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "vision/bilinear.h"
@@ -62,48 +64,76 @@ double OutsideBy(const LocatedBlade& blade, const Vector2d& place) {
   return (place - nearest->point_px).dot(nearest->normal);
 }
 
-// Tells a step in the light across a line from light that bends smoothly there, be the light beside
-// it straight or bent.
-class StepTest {
+// The taps that count, [first, end).
+struct Taps {
+  int first = 0, end = kTaps;
+  [[nodiscard]] int Count() const { return end - first; }
+};
+
+double PlaceOf(int tap) { return (tap - kHalfTaps) * kTapPx; }
+
+// Tells a border, at which light steps, or also where it begins to slope, from light that bends
+// smoothly there, be the light beside it straight or bent.
+class BorderTest {
  public:
-  explicit StepTest(double blur_px) {
-    Eigen::MatrixX4d powers(kTaps, 4);
-    VectorXd step(kTaps);
+  BorderTest(double blur_px, bool may_slope)
+      : smooth_(kTaps, 4), borders_(kTaps, may_slope ? 2 : 1) {
     for (int k = 0; k < kTaps; ++k) {
-      const double t = (k - kHalfTaps) * kTapPx;
-      powers.row(k) << 1, t, t * t, t * t * t;
-      step[k] = 0.5 * std::erfc(-t / (blur_px * std::numbers::sqrt2));
-    }
-    for (int bends : {0, 1}) {
-      MatrixXd stepped(kTaps, bends + 3);
-      stepped << powers.leftCols(bends + 2), step;
-      rivals_.push_back({Without(stepped), Without(powers.leftCols(bends + 3))});
+      const double t = PlaceOf(k), z = t / blur_px;
+      const double beyond = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+      const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+      smooth_.row(k) << 1, t, t * t, t * t * t;
+      borders_(k, 0) = beyond;
+      if (may_slope) borders_(k, 1) = t * beyond + blur_px * density;
     }
   }
 
-  // ln of the odds for the step.
-  [[nodiscard]] double LogOdds(const VectorXd& light) const {
-    constexpr double kIndependent = 8;  // taps, neighbours being alike by the blur
+  // ln of the odds for the border.
+  [[nodiscard]] double LogOdds(const VectorXd& light, const Taps& taps) {
+    constexpr double kIndependent = 8;  // of all taps, neighbours being alike by the blur
     constexpr double kLeastSquares = 1e-7;
+    const double independent = kIndependent * taps.Count() / kTaps;
+    const VectorXd seen = light.segment(taps.first, taps.Count());
+    const auto left = [&](const MatrixXd& basis) {
+      return seen.squaredNorm() - (basis.transpose() * seen).squaredNorm() + kLeastSquares;
+    };
     double most = -std::numeric_limits<double>::infinity();
-    for (const Rivals& rivals : rivals_) {
-      const double stepped = (rivals.without_stepped * light).squaredNorm() + kLeastSquares;
-      const double smooth = (rivals.without_smooth * light).squaredNorm() + kLeastSquares;
-      most = std::max(most, 0.5 * kIndependent * std::log(smooth / stepped));
+    for (const Rivals& rivals : RivalsOver(taps)) {
+      const double smooth = left(rivals.smooth);
+      for (const MatrixXd& bordered : rivals.bordered)
+        most = std::max(most, 0.5 * independent * std::log(smooth / left(bordered)));
     }
     return most;
   }
 
  private:
-  // What two bases of as many functions leave of a profile.
+  // Orthonormal bases of as many functions.
   struct Rivals {
-    MatrixXd without_stepped, without_smooth;
+    MatrixXd smooth;
+    std::vector<MatrixXd> bordered;
   };
-  static MatrixXd Without(const MatrixXd& basis) {
-    return MatrixXd::Identity(kTaps, kTaps) -
-           basis * (basis.transpose() * basis).inverse() * basis.transpose();
+
+  const std::vector<Rivals>& RivalsOver(const Taps& taps) {
+    std::vector<Rivals>& all = rivals_[{taps.first, taps.end}];
+    if (!all.empty()) return all;
+    const auto basis = [&](const MatrixXd& functions) {
+      const Eigen::HouseholderQR<MatrixXd> qr(functions.middleRows(taps.first, taps.Count()));
+      return MatrixXd(qr.householderQ() * MatrixXd::Identity(taps.Count(), functions.cols()));
+    };
+    for (const Eigen::Index powers : {2, 3}) {
+      Rivals rivals{basis(smooth_.leftCols(powers + 1)), {}};
+      for (const auto& border : borders_.colwise()) {
+        MatrixXd bordered(kTaps, powers + 1);
+        bordered << smooth_.leftCols(powers), border;
+        rivals.bordered.push_back(basis(bordered));
+      }
+      all.push_back(std::move(rivals));
+    }
+    return all;
   }
-  std::vector<Rivals> rivals_;
+
+  MatrixXd smooth_, borders_;  // what light may do across a trace, a column each
+  std::map<std::pair<int, int>, std::vector<Rivals>> rivals_;  // of the taps that were asked for
 };
 
 // Linear light across part of a trace, median along it.
@@ -131,26 +161,39 @@ bool LeavesEnd(const Trace& trace, const LocatedBlade& inner, double difference_
   return OutsideBy(inner, near_end) > kMost * difference_px + kNearestPx;
 }
 
-// What speaks for a trace as a whole.
+// Those from so far inwards to so far outwards.
+Taps TapsWithin(double inwards_px, double outwards_px) {
+  const auto count = [](double px) { return std::min(kHalfTaps, static_cast<int>(px / kTapPx)); };
+  return {kHalfTaps - count(inwards_px), kHalfTaps + count(outwards_px) + 1};
+}
+
+// What speaks for a trace as a whole, or is asked of it.
 struct Support {
   double log_odds = 0;
   int parts = 0;  // that speak for it
+
+  [[nodiscard]] bool Meets(const Support& demand) const {
+    return log_odds >= demand.log_odds && parts >= demand.parts;
+  }
 };
 
 Support SupportOf(const MirrorView& view,
                   const Trace& trace,
                   const LocatedBlade& inner,
                   const LocatedBlade& other,
-                  const StepTest& test) {
-  // Nearer to a line that was found, that line would be seen again; beyond the other one lies the
-  // other blade; and no part decides alone.
-  constexpr double kClearPx = 3.5, kLeast = -1, kMost = 8, kSpeaks = 1;
+                  BorderTest* test) {
+  // A line that was found is not to be seen again, nor the other blade; no part decides alone.
+  constexpr double kClearPx = 1.5, kLeast = -1, kMost = 8, kSpeaks = 1;
+  constexpr double kLeastBesidePx = 1;
   Support support;
   for (int index = 0; index < kParts; ++index) {
     const Part part = PartOf(trace.size(), index);
     const Vector2d middle = MiddleOf(trace, part);
-    if (std::min(OutsideBy(inner, middle), OutsideBy(other, middle)) < kClearPx) continue;
-    const double log_odds = test.LogOdds(ProfileAcross(view, trace, part));
+    const double inwards = OutsideBy(inner, middle) - kClearPx;
+    const double outwards = OutsideBy(other, middle) - kClearPx;
+    if (std::min(inwards, outwards) < kLeastBesidePx) continue;
+    const Taps taps = TapsWithin(inwards, outwards);
+    const double log_odds = test->LogOdds(ProfileAcross(view, trace, part), taps);
     support.log_odds += std::clamp(log_odds, kLeast, kMost);
     if (log_odds > kSpeaks) ++support.parts;
   }
@@ -190,6 +233,11 @@ double NextBest(const std::vector<Support>& supports, std::ptrdiff_t best) {
   return next;
 }
 
+// An edge that is clear by itself is left for a line that nearly all of the blade shows.
+Support DemandBeside(const LocatedEdge& inner) {
+  return IsClear(inner) ? Support{16, 7} : Support{8, 4};
+}
+
 }  // namespace
 
 std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
@@ -199,32 +247,37 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
                                                double difference_px) {
   constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
   constexpr double kClearly = 2;                       // times the next best
-  // An edge that is clear by itself is left for a line that nearly all of the blade shows.
-  const bool clear = IsClear(inner.edge);
-  const double least_odds = clear ? 16 : 8;
-  const int least_parts = clear ? 7 : 4;
   constexpr double kUsualBlurPx = 0.8;
-  const StepTest test(std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3));  // and the pixel's box
+  const Support demand = DemandBeside(inner.edge);
+  const double blur_px = std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3);  // and the pixel's box
   const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();
   const auto farthest = static_cast<int>((kOfDifference * difference_px + kNearestPx) / kStepPx);
   const auto turned = [&](double step) {
     const double half_rad = 0.5 * step * kStepPx / reach_px;
     return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
   };
-  std::vector<Support> supports;
-  for (int step = -farthest; step <= farthest; ++step) {
-    const Trace trace = MirroredEdge(other, turned(step));
-    supports.push_back(LeavesEnd(trace, inner, difference_px)
-                           ? Support{}
-                           : SupportOf(view, trace, inner, other, test));
+  for (const bool may_slope : {false, true}) {
+    BorderTest test(blur_px, may_slope);
+    std::vector<Support> supports;
+    bool is_seen_beyond = false;
+    for (int step = -farthest; step <= farthest; ++step) {
+      const Trace trace = MirroredEdge(other, turned(step));
+      const Support support = SupportOf(view, trace, inner, other, &test);
+      const bool is_beyond = LeavesEnd(trace, inner, difference_px);
+      is_seen_beyond |= is_beyond && support.Meets(demand);
+      supports.push_back(is_beyond ? Support{} : support);
+    }
+    const auto best = std::max_element(
+        supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
+    const double next = NextBest(supports, best - supports.begin());
+    if (best->Meets(demand) && best->log_odds >= kClearly * next) {
+      const Peak peak = PeakAbout(supports, best - supports.begin());
+      // Halfway along the blade the trace moves half as far as its end.
+      return MirroredTrace{turned(peak.place - farthest), 0.5 * kStepPx * peak.sigma};
+    }
+    if (is_seen_beyond) break;  // beside a step light slopes as well
   }
-  const auto best = std::max_element(
-      supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });
-  const double least = std::max(least_odds, kClearly * NextBest(supports, best - supports.begin()));
-  if (best->log_odds < least || best->parts < least_parts) return std::nullopt;
-  const Peak peak = PeakAbout(supports, best - supports.begin());
-  // Halfway along the blade the trace moves half as far as its end.
-  return MirroredTrace{turned(peak.place - farthest), 0.5 * kStepPx * peak.sigma};
+  return std::nullopt;
 }
 
 }  // namespace bladecurve

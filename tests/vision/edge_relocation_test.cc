@@ -254,6 +254,19 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.upper.edge.ambiguity, kWarned);
 }
 
+// What parts them may be the pivot then.
+TEST(RelocateUnlikeEdges, TakesNoFaintStepForEdgesThatDifferByLessThanThePivotIsSure) {
+  constexpr double kVaguePx = 10;
+  const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
+  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
+  measured.scale.sheet.reset();
+  measured.pivot.covariance_px2 *= kVaguePx * kVaguePx;
+  Relocate(&measured);
+  EXPECT_EQ(measured.blades.upper.moved, "");
+}
+
 // An oblique view parts clear edges as well.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
   const SceneSpec spec = SceneWithMarkers();

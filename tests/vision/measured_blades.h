@@ -54,36 +54,55 @@ inline SceneSpec SceneWithShadow(double elevation_rad, double direction_rad, dou
 
 inline constexpr double kBevelPx = 9;
 
-// The scissors with a bevel on the upper blade that mirrors the sheet but for a few grey levels,
-// brighter here and darker there, in a grainy picture.
-inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
-  constexpr double kStepPx = 0.25, kUnlike = 3, kWaves = 1.5, kGrain = 4, kBeyondPx = 3;
+// The picture with grain.
+inline cv::Mat Grained(cv::Mat picture) {
+  constexpr double kGrain = 4;
+  cv::Mat grain(picture.size(), CV_16SC3);
+  cv::RNG(1).fill(grain, cv::RNG::NORMAL, 0, kGrain);
+  cv::add(picture, grain, picture, cv::noArray(), CV_8UC3);
+  return picture;
+}
+
+// The scissors retouched within a distance of the upper edge. light(depth_px, share): how much
+// brighter the sheet would look so far within the blade (negative: outside), there along the edge;
+// grey levels.
+template <typename Light>
+cv::Mat RetouchedAlongUpperEdge(const SceneSpec& spec,
+                                double from_px,
+                                double to_px,
+                                const Light& light) {
+  constexpr double kStepPx = 0.25, kBeyondPx = 3;
   const cv::Mat picture = RenderScene(spec).bgr;
   cv::Mat retouched = picture.clone();
   const std::vector<Vector2d>& edge = TruthOf(spec).upper.px;
   for (std::size_t i = 1; i < edge.size(); ++i) {
     const Vector2d along = edge[i] - edge[i - 1];
     const Vector2d outwards = Vector2d(-along.y(), along.x()).normalized();  // the tips lie right
+    const double share = static_cast<double>(i) / static_cast<double>(edge.size());
     for (double t = 0; t < 1; t += kStepPx / along.norm()) {
       const Vector2d on_edge = edge[i - 1] + t * along;
-      for (double depth = 0; depth < kBevelPx; depth += kStepPx) {
+      for (double depth = from_px; depth < to_px; depth += kStepPx) {
         const auto pixel = [](const Vector2d& at) {
           return cv::Point(static_cast<int>(std::lround(at.x())),
                            static_cast<int>(std::lround(at.y())));
         };
         const cv::Vec3b sheet =
-            picture.at<cv::Vec3b>(pixel(on_edge + (depth + kBeyondPx) * outwards));
-        const double share = static_cast<double>(i) / static_cast<double>(edge.size());
-        const double unlike = kUnlike * std::cos(kWaves * 2 * std::numbers::pi * share);
+            picture.at<cv::Vec3b>(pixel(on_edge + (std::abs(depth) + kBeyondPx) * outwards));
         retouched.at<cv::Vec3b>(pixel(on_edge - depth * outwards)) =
-            cv::Vec3b(cv::Vec3d(sheet) + cv::Vec3d::all(std::round(unlike)));
+            cv::Vec3b(cv::Vec3d(sheet) + cv::Vec3d::all(std::round(light(depth, share))));
       }
     }
   }
-  cv::Mat grain(retouched.size(), CV_16SC3);
-  cv::RNG(1).fill(grain, cv::RNG::NORMAL, 0, kGrain);
-  cv::add(retouched, grain, retouched, cv::noArray(), CV_8UC3);
   return retouched;
+}
+
+// The scissors with a bevel on the upper blade that mirrors the sheet but for a few grey levels,
+// brighter here and darker there, in a grainy picture.
+inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
+  constexpr double kUnlike = 3, kWaves = 1.5;
+  return Grained(RetouchedAlongUpperEdge(spec, 0, kBevelPx, [](double, double share) {
+    return kUnlike * std::cos(kWaves * 2 * std::numbers::pi * share);
+  }));
 }
 
 // A rendered photograph up to where the edges are compared.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -17,8 +18,10 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::FarFrom;
+using testing::Grained;
 using testing::kBevelPx;
 using testing::Measured;
+using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithMarkers;
 using testing::WithMirroringBevel;
 
@@ -28,9 +31,9 @@ struct Found {
   double off_px = 0;
 };
 
-Found FindIn(const SceneSpec& spec, const cv::Mat& picture) {
+Found FindIn(const SceneSpec& spec, const cv::Mat& picture, double bevel_px = kBevelPx) {
   Measured measured{spec};
-  measured.Misplace(&measured.blades.upper, -kBevelPx);
+  measured.Misplace(&measured.blades.upper, -bevel_px);
   measured.photo = Measured::PhotoOf(picture);
   const LocatedBlade& lower = measured.blades.lower;
   const auto trace =
@@ -38,7 +41,7 @@ Found FindIn(const SceneSpec& spec, const cv::Mat& picture) {
                         measured.blades.upper,
                         lower,
                         LineBetween(measured.View(), measured.pivot, measured.blades),
-                        kBevelPx);
+                        bevel_px);
   if (!trace) return {};
   std::vector<LocatedEdgePoint> points = lower.used;
   for (LocatedEdgePoint& p : points) p = trace->line.Reflected(p);
@@ -49,6 +52,29 @@ TEST(FindMirroredTrace, FindsTheBorderOfABevelThatMirrorsTheGround) {
   constexpr double kClosePx = 0.4;
   const SceneSpec spec = SceneWithMarkers();
   const Found found = FindIn(spec, WithMirroringBevel(spec));
+  EXPECT_TRUE(found.any);
+  EXPECT_LT(found.off_px, kClosePx);
+}
+
+// As dark as the shadow at its foot, which gets lighter from there on: no step, but a kink.
+TEST(FindMirroredTrace, FindsTheBorderOfABevelAsDarkAsTheShadowBesideIt) {
+  constexpr double kClosePx = 0.6, kShadowPx = 12, kDark = 60;
+  const SceneSpec spec = SceneWithMarkers();
+  const auto light = [](double depth, double) {
+    return -kDark * std::min(1.0, 1 + depth / kShadowPx);
+  };
+  const Found found =
+      FindIn(spec, Grained(RetouchedAlongUpperEdge(spec, -kShadowPx, kBevelPx, light)));
+  EXPECT_TRUE(found.any);
+  EXPECT_LT(found.off_px, kClosePx);
+}
+
+TEST(FindMirroredTrace, FindsTheBorderOfANarrowBevel) {
+  constexpr double kClosePx = 0.7, kNarrowPx = 3, kDarker = 6;
+  const SceneSpec spec = SceneWithMarkers();
+  const auto light = [](double, double) { return -kDarker; };
+  const Found found =
+      FindIn(spec, Grained(RetouchedAlongUpperEdge(spec, 0, kNarrowPx, light)), kNarrowPx);
   EXPECT_TRUE(found.any);
   EXPECT_LT(found.off_px, kClosePx);
 }
