@@ -121,6 +121,16 @@ double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other) {
   return Median(std::move(distances));
 }
 
+// What a wider look saw beside the same line is in doubt although a narrower one does not see it.
+void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower) {
+  constexpr double kSamePx = 1;
+  if (wider.ambiguity <= narrower->ambiguity || MedianDistance(*narrower, wider) > kSamePx) return;
+  narrower->ambiguity = wider.ambiguity;
+  narrower->rival_px = wider.rival_px;
+  narrower->rival_path_px = wider.rival_path_px;
+  narrower->common_sigma_px = std::max(narrower->common_sigma_px, wider.common_sigma_px);
+}
+
 Vector2d DirectionOfDistalHalf(const LocatedEdge& edge) {
   return (edge.points.back().trend_px - edge.points[edge.points.size() / 2].trend_px).normalized();
 }
@@ -304,8 +314,9 @@ class BladeLocator {
     if (InlyingShare(edge) > 1 - kStray) return edge;
     const EdgeGuess guess{PlainCurve(edge.points), left, kSearchPx};
     auto again = UnlessRefused([&] { return InGreyOr(InViewOrHalved, guess); });
-    if (again && Information(*again) > Information(edge)) return *std::move(again);
-    return edge;
+    if (!again || Information(*again) <= Information(edge)) return edge;
+    KeepRival(edge, &*again);
+    return *std::move(again);
   }
 
   // From a line at which only light changes to the one at which the ground's colour ends; where
