@@ -134,19 +134,36 @@ TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
 }
 
 // Scene finding may take a piece of the background for blade: its trace has a notch then.
+void Notch(std::vector<Eigen::Vector2d>* trace) {
+  constexpr double kNotchPx = 10;
+  const Eigen::Vector2d along = (trace->back() - trace->front()).normalized();
+  for (size_t i = trace->size() * 6 / 10; i < trace->size() * 8 / 10; ++i)
+    (*trace)[i] += kNotchPx * Eigen::Vector2d(along.y(), -along.x());
+}
+
 TEST(LocateBlades, FollowsTheCurveOfMostOfTheEdgeWhereTheTraceStrays) {
-  constexpr double kClosePx = 0.3, kNotchPx = 10;
+  constexpr double kClosePx = 0.3;
   const SceneSpec spec = testing::SceneWithMarkers();
   Seen seen(spec);
-  std::vector<Eigen::Vector2d>& trace = seen.scene.left.inner_px;
-  const Eigen::Vector2d along = (trace.back() - trace.front()).normalized();
-  for (size_t i = trace.size() * 6 / 10; i < trace.size() * 8 / 10; ++i)
-    trace[i] += kNotchPx * Eigen::Vector2d(along.y(), -along.x());
+  Notch(&seen.scene.left.inner_px);
   const LocatedEdge edge = seen.Locate().upper;
   size_t inlying = 0;
   for (const LocatedEdgePoint& point : edge.points) inlying += point.inlier;
   EXPECT_GT(inlying, 0.95 * edge.points.size());
   EXPECT_LT(FarFrom(TruthOf(spec).upper, edge.points), kClosePx);
+}
+
+// The look along that curve is too narrow to see both sides of a shadow.
+TEST(LocateBlades, LeavesAShadowsBorderWhereTheTraceStrays) {
+  constexpr double kClosePx = 0.3;
+  const SceneSpec spec = SceneWithShadowsInTheGap(45 * kDegree);
+  Seen seen(spec);
+  Notch(&seen.scene.left.inner_px);
+  Notch(&seen.scene.right.inner_px);
+  const BladeEdges edges = seen.Locate();
+  const SceneTruth truth = TruthOf(spec);
+  EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx);
+  EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx);
 }
 
 // Two straight blades that cross, the upper one above its edge, on an even ground.
