@@ -6,8 +6,12 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "vision/edge_curve.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -24,6 +28,16 @@ void RefuseOutOfPlane(const Pivot& pivot) {
 double BladeLength(const Pivot& pivot, const Blades& blades) {
   return 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
                 (blades.lower.end.point_px - pivot.point_px).norm());
+}
+
+// How far points are off the curve that most of them follow: what all but a twentieth keeps to. px
+double KinkOf(const std::vector<LocatedEdgePoint>& points) {
+  constexpr double kMost = 0.95;
+  const std::vector<Eigen::Vector2d> curve = PlainCurve(points);
+  std::vector<double> off;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    off.push_back(std::abs(points[i].normal.dot(points[i].trend_px - curve[i])));
+  return SampleQuantile(std::move(off), kMost);
 }
 
 // Blades that open little do not say how far behind them they turn.
@@ -154,6 +168,24 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
     if (!AreAlike(pivot.asymmetry + moved)) continue;
     Doubt(&edge, kShare * edge.rival_px);
+  }
+}
+
+void DoubtKinkedEdges(Blades* blades) {
+  constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
+  constexpr double kLeastPx = 0.5, kTimes = 2;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    const double kink_px = KinkOf(blade->used);
+    const double length_px = (blade->used.back().trend_px - blade->used.front().trend_px).norm();
+    if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
+      throw Refused(Reason::kLowContrast,
+                    "edges: the upper cutting edge leaves a blade's smooth course by " +
+                        std::to_string(std::lround(kink_px)) +
+                        " px, as where the line of a bevel or the border of a shadow is followed "
+                        "part of the way; use another background or light");
+    }
+    if (kink_px > std::max({kKinked * length_px, kLeastPx, TotalSigma(blade->edge)}))
+      Doubt(&blade->edge, kTimes * kink_px);
   }
 }
 

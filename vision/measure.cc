@@ -256,6 +256,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   RefuseUnlikeEdges(pivot, scale);
   RefuseUnconfirmedScene(scene, pivot);
   CutWhereEdgesPart(view, pivot, &parts.blades);
+  DoubtKinkedEdges(&parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
   DoubtUnlikePrint(scale, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -160,6 +161,62 @@ TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   pivot.source = "geometry";  // then it lies where the edges are alike
   DoubtUnlikeEdges(pivot, &unseen);
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
+}
+
+// A curve along x that goes over to another one so far beside it from a share of its length on, and
+// is known to a tenth of a pixel.
+LocatedBlade BladeThatChangesLines(double beside_px, double from_share) {
+  constexpr int kPoints = 250;
+  constexpr double kBow = 20, kOver = 0.1;  // px; share of the length over which it goes over
+  LocatedBlade blade;
+  for (int i = 0; i < kPoints; ++i) {
+    const double share = static_cast<double>(i) / kPoints;
+    const double over = std::clamp((share - from_share) / kOver, 0.0, 1.0);
+    LocatedEdgePoint point;
+    point.point_px = {i, kBow * share * share * share + beside_px * over};
+    point.trend_px = point.point_px;
+    point.normal = {0, 1};
+    point.sigma_px = 0.1;
+    blade.used.push_back(point);
+  }
+  blade.edge.points = blade.used;
+  return blade;
+}
+
+// What becomes of blades of which one changes lines: the ambiguity of it, or 2 if it is refused.
+double AmbiguityIfKinked(bool upper, double beside_px, double from_share) {
+  Blades blades = BladesWithRivals(0, 0);
+  blades.upper = blades.lower = BladeThatChangesLines(0, 0);
+  LocatedBlade& kinked = upper ? blades.upper : blades.lower;
+  kinked = BladeThatChangesLines(beside_px, from_share);
+  try {
+    DoubtKinkedEdges(&blades);
+  } catch (const Refused& refused) {
+    EXPECT_EQ(refused.reason(), Reason::kLowContrast);
+    return 2;
+  }
+  EXPECT_EQ((upper ? blades.lower : blades.upper).edge.ambiguity, 0);
+  return kinked.edge.ambiguity;
+}
+
+TEST(DoubtKinkedEdges, DoubtsEdgesThatChangeLinesPartOfTheWay) {
+  for (const bool upper : {true, false}) {
+    EXPECT_EQ(AmbiguityIfKinked(upper, 0, 0.5), 0) << "a bow is none";
+    EXPECT_EQ(AmbiguityIfKinked(upper, 0.3, 0.5), 0);
+    EXPECT_GT(AmbiguityIfKinked(upper, 4, 0.75), 0.5);
+    EXPECT_LE(AmbiguityIfKinked(upper, 4, 0.75), 1);
+  }
+  EXPECT_EQ(AmbiguityIfKinked(true, -30, 0.75), 2);
+  EXPECT_LE(AmbiguityIfKinked(false, -30, 0.75), 1) << "the upper edge is measured without it";
+}
+
+TEST(DoubtKinkedEdges, TrustsVagueEdgesToBeAsVagueAsTheySay) {
+  Blades blades = BladesWithRivals(0, 0);
+  blades.upper = BladeThatChangesLines(0, 0);
+  blades.lower = BladeThatChangesLines(4, 0.75);
+  blades.lower.edge.common_sigma_px = 5;
+  DoubtKinkedEdges(&blades);
+  EXPECT_EQ(blades.lower.edge.ambiguity, 0);
 }
 
 TEST(DoubtUnlikePrint, DoubtsWhatNoLensShows) {
