@@ -6,12 +6,9 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "vision/edge_curve.h"
 #include "vision/refused.h"
-#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -28,16 +25,6 @@ void RefuseOutOfPlane(const Pivot& pivot) {
 double BladeLength(const Pivot& pivot, const Blades& blades) {
   return 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
                 (blades.lower.end.point_px - pivot.point_px).norm());
-}
-
-// How far points are off the curve that most of them follow: what all but a twentieth keeps to. px
-double KinkOf(const std::vector<LocatedEdgePoint>& points) {
-  constexpr double kMost = 0.95;
-  const std::vector<Eigen::Vector2d> curve = PlainCurve(points);
-  std::vector<double> off;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    off.push_back(std::abs(points[i].normal.dot(points[i].trend_px - curve[i])));
-  return SampleQuantile(std::move(off), kMost);
 }
 
 // Blades that open little do not say how far behind them they turn.
@@ -173,9 +160,9 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
 
 void DoubtKinkedEdges(Blades* blades) {
   constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
-  constexpr double kLeastPx = 0.5, kTimes = 2;
+  constexpr double kLeastPx = 0.5, kTimes = 2, kMost = 0.95;
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
-    const double kink_px = KinkOf(blade->used);
+    const double kink_px = OffPlainCurve(blade->used, kMost);
     const double length_px = (blade->used.back().trend_px - blade->used.front().trend_px).norm();
     if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
       throw Refused(Reason::kLowContrast,

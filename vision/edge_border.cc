@@ -7,7 +7,9 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "vision/edge_curve.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -28,31 +30,39 @@ std::vector<double> HighestSteps(const StepMap& map) {
   return highest;
 }
 
+constexpr float kStiffestBend = 2;  // it takes eight clear stations to leave a line for good
+
+// How far across the guess a line may lie, and what each change by a row costs it.
+struct LineSearch {
+  double reach_px;
+  float bend = kStiffBend;
+};
+
 // The line most clearly seen, wherever it lies.
-StepLine ClearestLine(const Survey& survey, double search_px) {
+StepLine ClearestLine(const Survey& survey, const LineSearch& search) {
   return FindBestLine(survey.map,
                       Scores(survey,
                              [&](int station, int row) {
-                               return std::abs(survey.FromGuess(station, row)) <= search_px
+                               return std::abs(survey.FromGuess(station, row)) <= search.reach_px
                                           ? survey.map.clear[survey.map.At(station, row)]
                                           : kForbidden;
                              }),
-                      kStiffBend);
+                      search.bend);
 }
 
 // Of the clear lines about as far apart as bevel and shadow are wide, the outer one.
-StepLine OutermostLine(const Survey& survey, double search_px) {
+StepLine OutermostLine(const Survey& survey, const LineSearch& search) {
   constexpr double kOutwards = 0.055;  // a px: of two clear lines the outer one is the border
   constexpr double kMostApart = 8;     // px; lines further out are the background's own
   constexpr double kForHeight = 0.12;  // unless it is much the lower one and near
   const std::vector<double> highest = HighestSteps(survey.map);
-  const StepLine clearest = ClearestLine(survey, search_px);
+  const StepLine clearest = ClearestLine(survey, search);
   return FindBestLine(
       survey.map,
       Scores(
           survey,
           [&](int station, int row) {
-            if (std::abs(survey.FromGuess(station, row)) > search_px) return kForbidden;
+            if (std::abs(survey.FromGuess(station, row)) > search.reach_px) return kForbidden;
             const double outwards = std::clamp(
                 static_cast<double>(row - clearest.rows[Index(station)]), -kMostApart, kMostApart);
             const size_t at = survey.map.At(station, row);
@@ -61,23 +71,23 @@ StepLine OutermostLine(const Survey& survey, double search_px) {
             return survey.map.clear[at] *
                    static_cast<float>(1 + kOutwards * outwards - kForHeight * (1 - height));
           }),
-      kStiffBend);
+      search.bend);
 }
 
 // The best line at least `apart` rows further in than `line`, over steps of the given sign.
 StepLine LineWithin(
-    const Survey& survey, const StepLine& line, int apart, double search_px, double sign) {
+    const Survey& survey, const StepLine& line, int apart, const LineSearch& search, double sign) {
   return FindBestLine(survey.map,
                       Scores(survey,
                              [&](int station, int row) {
                                if (row + apart > line.rows[Index(station)] ||
-                                   survey.FromGuess(station, row) < -search_px)
+                                   survey.FromGuess(station, row) < -search.reach_px)
                                  return kForbidden;
                                const size_t at = survey.map.At(station, row);
                                return sign * survey.map.height[at] > 0 ? survey.map.clear[at]
                                                                        : 0.0F;
                              }),
-                      kStiffBend);
+                      search.bend);
 }
 
 double LengthOf(const EdgePath& path) {
@@ -95,7 +105,7 @@ double WidestBevel(const Survey& survey) {
 
 // The next line further out, where it is about as clear and as high: what lies outside a silhouette
 // is not.
-StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px) {
+StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch& search) {
   constexpr int kApart = 2;                          // px; nearer lines are the same
   constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
   const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
@@ -105,12 +115,12 @@ StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px
                           [&](int station, int row) {
                             const int outwards = row - line.rows[Index(station)];
                             if (outwards <= kApart || outwards > widest) return kForbidden;
-                            if (std::abs(survey.FromGuess(station, row)) > search_px)
+                            if (std::abs(survey.FromGuess(station, row)) > search.reach_px)
                               return kForbidden;
                             if (FallsDeeper(survey.map, station, row, height)) return 1.0F;
                             return survey.map.clear[survey.map.At(station, row)];
                           }),
-                   kStiffBend);
+                   search.bend);
   const bool clear = outer.score > kAsClear * line.score;
   const bool high = std::abs(HeightUnder(survey.map, outer)) > kAsHigh * std::abs(height);
   return clear && high ? outer : line;
@@ -119,12 +129,12 @@ StepLine OuterMatch(const Survey& survey, const StepLine& line, double search_px
 // A dark band between bright metal and a bright background is the bevel where it is narrow; where
 // it is wide, and a sharp step bounds it on the blade's side as well, it is a hard shadow and the
 // border is that inner step.
-StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double search_px) {
+StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, const LineSearch& search) {
   constexpr double kSeen = 0.6, kHigh = 0.5;  // of the outer border's share and height
   const double height = TypicalHeight(survey.map, line);
   if (height <= 0) return line;
   const int apart = static_cast<int>(std::lround(WidestBevel(survey)));
-  const StepLine inner = LineWithin(survey, line, apart, search_px, -1);
+  const StepLine inner = LineWithin(survey, line, apart, search, -1);
   const bool seen = ClearShare(survey.map, inner) > kSeen * ClearShare(survey.map, line);
   return seen && -TypicalHeight(survey.map, inner) > kHigh * height ? inner : line;
 }
@@ -132,7 +142,7 @@ StepLine WithoutHardShadow(const Survey& survey, const StepLine& line, double se
 // The survey and the outermost line in it.
 SurveyedBorder WithOutermostLine(Survey survey, double search_px) {
   SurveyedBorder border{std::move(survey), {}};
-  border.line = OutermostLine(border.survey, search_px);
+  border.line = OutermostLine(border.survey, {search_px});
   return border;
 }
 
@@ -220,6 +230,45 @@ double BladeResponse(const Survey& survey, double search_px) {
   return std::max(kSigmaPerQuantile * SampleQuantile(std::move(heights), kShare), kLeastResponse);
 }
 
+// The border, from the outermost line.
+StepLine BorderFrom(const Survey& survey, const StepLine& outermost, const LineSearch& search) {
+  return WithoutHardShadow(survey, OuterMatch(survey, outermost, search), search);
+}
+
+// How far a line is off the smooth curve that most of it follows. px
+double KinkOf(const Survey& survey, const StepLine& line) {
+  constexpr double kMost = 0.9, kStiffness = 4;
+  const std::vector<Eigen::Vector2d> path = PointsOn(survey, line, kStiffness);
+  std::vector<LocatedEdgePoint> points;
+  for (std::size_t i = 0; i < path.size(); i += Index(survey.map.layout.spacing)) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = path[i];
+    point.normal = survey.path.normals[i];
+    points.push_back(point);
+  }
+  return OffPlainCurve(points, kMost);
+}
+
+// Of their stations, the share in which two lines are the same.
+double ShareInCommon(const StepLine& a, const StepLine& b) {
+  int common = 0;
+  for (std::size_t i = 0; i < a.rows.size(); ++i) common += std::abs(a.rows[i] - b.rows[i]) <= 1;
+  return common / static_cast<double>(a.rows.size());
+}
+
+// A border that changes to another line part of the way, a bevel's or a shadow's, has a kink. The
+// one that changes less readily, if it goes along with the other for a while and has none.
+std::optional<StepLine> StifferLine(const SurveyedBorder& border, double search_px) {
+  constexpr double kKinkPx = 0.7, kLess = 0.5, kInCommon = 0.2;
+  const double kink_px = KinkOf(border.survey, border.line);
+  if (kink_px < kKinkPx) return std::nullopt;
+  const LineSearch search{search_px, kStiffestBend};
+  StepLine stiffer = BorderFrom(border.survey, OutermostLine(border.survey, search), search);
+  const bool goes_along = ShareInCommon(stiffer, border.line) > kInCommon;
+  if (!goes_along || KinkOf(border.survey, stiffer) > kLess * kink_px) return std::nullopt;
+  return stiffer;
+}
+
 }  // namespace
 
 double HeightUnder(const StepMap& map, const StepLine& line) {
@@ -253,8 +302,8 @@ SurveyedBorder FindFall(const cv::Mat& grey, const EdgePath& guess, double searc
 
 SurveyedBorder FindBorder(const cv::Mat& grey, const EdgePath& guess, double search_px) {
   SurveyedBorder border = ClearestSurvey(grey, guess, search_px);
-  border.line = OuterMatch(border.survey, border.line, search_px);
-  border.line = WithoutHardShadow(border.survey, border.line, search_px);
+  border.line = BorderFrom(border.survey, border.line, {search_px});
+  if (auto stiffer = StifferLine(border, search_px)) border.line = *std::move(stiffer);
   return border;
 }
 

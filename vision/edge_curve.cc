@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "vision/robust_statistics.h"
 
@@ -224,6 +225,14 @@ std::vector<double> DistancesFromPlainCurve(const std::vector<LocatedEdgePoint>&
   std::vector<double> distances;
   for (size_t i = 0; i < points.size(); ++i) distances.push_back(DistanceFrom(curve[i], points[i]));
   return distances;
+}
+
+double OffPlainCurve(const std::vector<LocatedEdgePoint>& points, double share) {
+  const std::vector<Vector2d> curve = PlainCurve(points);
+  std::vector<double> off;
+  for (size_t i = 0; i < points.size(); ++i)
+    off.push_back(std::abs(points[i].normal.dot(points[i].trend_px - curve[i])));
+  return SampleQuantile(std::move(off), share);
 }
 
 std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>& points,

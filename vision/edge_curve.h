@@ -19,6 +19,9 @@ namespace bladecurve {
 [[nodiscard]] std::vector<double> DistancesFromPlainCurve(
     const std::vector<LocatedEdgePoint>& points);
 
+// How far the points' trends are off it: what that share of them keeps to. px
+[[nodiscard]] double OffPlainCurve(const std::vector<LocatedEdgePoint>& points, double share);
+
 // Marks as strays the few points beyond a wider gap, towards either end, that do not go on as the
 // curve of the rest would: near the tip, where a bevel mirrors the ground, the line found may go
 // over to the bevel's inner border. Returns whether there were any.

@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// The pieces an edge is located with: the blurred step, the smoother, the band of raw pixels.
+// The pieces an edge is located with: the blurred step, the smoother, the band of raw pixels, the
+// choice of the transition.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
 #include <numbers>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "vision/blurred_step.h"
 #include "vision/edge_band.h"
+#include "vision/edge_choice.h"
 #include "vision/edge_debug.h"
 #include "vision/edge_images.h"
 #include "vision/edge_path.h"
@@ -153,6 +156,35 @@ int Count(const cv::Mat& bgr, const cv::Vec3b& colour) {
   cv::Mat same;
   cv::inRange(bgr, cv::Scalar(colour), cv::Scalar(colour), same);
   return cv::countNonZero(same);
+}
+
+// Of a picture of a blade above a straight border, whose ground is as dark as the bevel from a
+// share of the length on: there the line at which the bevel begins is seen alone.
+cv::Mat DarkeningGround(int border, int bevel_line, double share) {
+  constexpr int kLong = 600, kHigh = 240, kBevelFrom = kLong / 5;
+  const cv::Scalar plane(150), bevel(90), ground(150);
+  cv::Mat picture(kHigh, kLong, CV_8UC1, bevel);
+  picture(cv::Range(0, bevel_line), cv::Range(kBevelFrom, kLong)) = plane;
+  picture(cv::Range(border, kHigh), cv::Range(0, static_cast<int>(share * kLong))) = ground;
+  cv::GaussianBlur(picture, picture, {}, 0.7);
+  cv::Mat noise(picture.size(), CV_16SC1);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 2);
+  cv::add(picture, noise, picture, cv::noArray(), CV_8UC1);
+  return picture;
+}
+
+TEST(ChooseTransition, ChangesToNoOtherLinePartOfTheWay) {
+  constexpr int kBorder = 150, kBevelLine = 138;
+  constexpr double kMargin = 20, kSearchPx = 30, kClosePx = 1.5;
+  for (const double share : {0.5, 0.6, 0.7}) {
+    const cv::Mat picture = DarkeningGround(kBorder, kBevelLine, share);
+    const EdgePath guess =
+        SmoothPath({{kMargin, kBorder}, {picture.cols - kMargin, kBorder}}, true, 3);
+    int far = 0;
+    for (const Vector2d& point : ChooseTransition(picture, guess, kSearchPx).points)
+      far += std::abs(point.y() - (kBorder - 0.5)) > kClosePx;
+    EXPECT_EQ(far, 0) << share;
+  }
 }
 
 TEST(DrawEdge, ShowsEveryPointAsItWasTaken) {
