@@ -179,6 +179,16 @@ std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
   return ClearCapAt(*step_end_px, grey, edge, presumed);
 }
 
+// Whether the step across the edge goes on far beyond an arc: that is no tip's.
+bool GoesOnBeyond(const TipCap& cap,
+                  const std::vector<Vector2d>& edge,
+                  const TipSearch& presumed,
+                  const std::optional<Vector2d>& step_end_px) {
+  constexpr double kFar = 1.5;  // times as far as the presumed tip may be off
+  return step_end_px &&
+         (*step_end_px - cap.end_px).dot(AlongChord(edge)) > kFar * presumed.reach_px;
+}
+
 // Arcs before the presumed tip, up to a blade's width, at which the picture steps as it does across
 // the edge: the presumed tip may be that of the blade's shadow.
 std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
@@ -215,6 +225,12 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
     return ends;
   };
   const auto before = [&] { return EndsBefore(grey, edge, search.tip, followed.step); };
+  if (clear && !rival && GoesOnBeyond(*cap, edge, search.tip, followed.end_px)) {
+    EndSearch further = search;
+    further.tip.tip_px = *followed.end_px;
+    return {EndWithoutCap(edge, further, followed.end_px),
+            {EndAtSeenCap(edge, *cap, followed.step)}};
+  }
   if (clear) {
     const DistalEnd end = EndAtSeenCap(edge, *cap, followed.step);
     return {end, and_rival(end.evidence > 0 ? std::vector<DistalEnd>{} : before())};

@@ -131,6 +131,31 @@ TEST(FindDistalEnds, TakesNoBendForTheTipWhereTheStepGoesOn) {
   EXPECT_GT(end.along_sigma_px, 0.4 * (kTip - kLost));
 }
 
+// The tip of a needle is as dark as the ground is in grey, but for the step across its edge: what
+// is brighter ends before, on an arc.
+TEST(FindDistalEnds, TakesNoArcForTheTipWhereTheStepGoesOn) {
+  constexpr double kRadius = 8, kArcEnds = 240;
+  cv::Mat picture(160, 340, CV_8UC1, cv::Scalar(200));
+  const std::vector<cv::Point> needle{{-10, 100}, {300, 100}, {20, 60}, {-10, 60}};
+  cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{needle}, 80);
+  const cv::Point center(static_cast<int>(kArcEnds - kRadius), static_cast<int>(kEdge - kRadius));
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    const bool is_beyond =
+        at[1] > center.x && std::hypot(at[1] - center.x, at[0] - center.y) > kRadius;
+    if (is_beyond && value == 80) value = 150;
+  });
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  edge.resize(static_cast<std::size_t>(kArcEnds - edge.front().x()));
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px = {kArcEnds, kEdge - kRadius};
+  const DistalEnds ends = FindDistalEnds(picture, edge, search);
+  EXPECT_GT(ends.likely.point_px.x(), kArcEnds + 0.3 * (kTip - kArcEnds));
+  EXPECT_LT(kTip - ends.likely.point_px.x(), 3 * ends.likely.along_sigma_px);
+  ASSERT_EQ(ends.rivals.size(), 1);
+  EXPECT_NEAR(ends.rivals[0].point_px.x(), center.x, 3);
+}
+
 // A soft or a hard shadow of the tip lies further on than the tip itself.
 TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
   constexpr double kRadius = 8, kShadowPx = 20, kAlong = 2.5;
