@@ -57,6 +57,15 @@ Integrals Interpolate(double z) {
 
 }  // namespace
 
+double BlurredPower(double across_px, int power, double blur_px) {
+  const double z = across_px / blur_px;
+  const double passed = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+  if (power == 0) return passed;
+  const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+  const double first = z * passed + density;
+  return power == 1 ? blur_px * first : blur_px * blur_px * (z * first + passed);
+}
+
 double TotalBlurVariance(double blur_px) { return blur_px * blur_px + 1.0 / 12.0; }
 
 BlurredStep::BlurredStep(const Eigen::Vector2d& normal, double blur_px)

@@ -31,6 +31,10 @@ class BlurredStep {
   double reach_px_;                    // the step is complete to 1e-7 beyond
 };
 
+// Light that goes with a power (0, 1 or 2) of the distance beyond a line and is none before, as a
+// lens shows it `across_px` from the line: the power's mean over a Gaussian, no pixel box.
+[[nodiscard]] double BlurredPower(double across_px, int power, double blur_px);
+
 // Variance of blur and pixel box together, along any direction: blur^2 + 1/12.
 [[nodiscard]] double TotalBlurVariance(double blur_px);
 

@@ -24,8 +24,8 @@ namespace bladecurve {
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
 //   one, if it is seen where the other puts it.
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
-// not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot as
-// those of scissors do stay where they were if they would hardly pass by it elsewhere.
+// not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
+// as those of scissors do stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve

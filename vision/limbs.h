@@ -104,7 +104,8 @@ struct ShankEnd {
   bool cut_off = false;
 };
 
-// The shank between `shank_crotch` and its end at `point`, on both of which `arc` of the contour lies.
+// The shank between `shank_crotch` and its end at `point`. `arc`: the contour about it, which may
+// begin as early as at the tip of the blade beside it.
 [[nodiscard]] ShankEnd DescribeShank(const Silhouette& silhouette,
                                      const cv::Mat& hidden,
                                      const std::vector<Eigen::Vector2d>& arc,

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "vision/bilinear.h"
+#include "vision/blurred_step.h"
 #include "vision/consistency.h"
 #include "vision/robust_statistics.h"
 
@@ -76,20 +76,16 @@ double PlaceOf(int tap) { return (tap - kHalfTaps) * kTapPx; }
 // smoothly there, be the light beside it straight or bent.
 class BorderTest {
  public:
-  BorderTest(double blur_px, bool may_slope)
-      : smooth_(kTaps, 4), borders_(kTaps, may_slope ? 2 : 1) {
+  explicit BorderTest(double blur_px) : smooth_(kTaps, 4), borders_(kTaps, 2) {
     for (int k = 0; k < kTaps; ++k) {
-      const double t = PlaceOf(k), z = t / blur_px;
-      const double beyond = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-      const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
+      const double t = PlaceOf(k);
       smooth_.row(k) << 1, t, t * t, t * t * t;
-      borders_(k, 0) = beyond;
-      if (may_slope) borders_(k, 1) = t * beyond + blur_px * density;
+      borders_.row(k) << BlurredPower(t, 0, blur_px), BlurredPower(t, 1, blur_px);
     }
   }
 
   // ln of the odds for the border.
-  [[nodiscard]] double LogOdds(const VectorXd& light, const Taps& taps) {
+  [[nodiscard]] double LogOdds(const VectorXd& light, const Taps& taps, bool may_slope) {
     constexpr double kIndependent = 8;  // of all taps, neighbours being alike by the blur
     constexpr double kLeastSquares = 1e-7;
     const double independent = kIndependent * taps.Count() / kTaps;
@@ -99,9 +95,9 @@ class BorderTest {
     };
     double most = -std::numeric_limits<double>::infinity();
     for (const Rivals& rivals : RivalsOver(taps)) {
-      const double smooth = left(rivals.smooth);
-      for (const MatrixXd& bordered : rivals.bordered)
-        most = std::max(most, 0.5 * independent * std::log(smooth / left(bordered)));
+      const double step = left(rivals.stepped);
+      const double border = may_slope ? std::min(step, left(rivals.sloped)) : step;
+      most = std::max(most, 0.5 * independent * std::log(left(rivals.smooth) / border));
     }
     return most;
   }
@@ -109,8 +105,7 @@ class BorderTest {
  private:
   // Orthonormal bases of as many functions.
   struct Rivals {
-    MatrixXd smooth;
-    std::vector<MatrixXd> bordered;
+    MatrixXd smooth, stepped, sloped;
   };
 
   const std::vector<Rivals>& RivalsOver(const Taps& taps) {
@@ -121,13 +116,12 @@ class BorderTest {
       return MatrixXd(qr.householderQ() * MatrixXd::Identity(taps.Count(), functions.cols()));
     };
     for (const Eigen::Index powers : {2, 3}) {
-      Rivals rivals{basis(smooth_.leftCols(powers + 1)), {}};
-      for (const auto& border : borders_.colwise()) {
-        MatrixXd bordered(kTaps, powers + 1);
-        bordered << smooth_.leftCols(powers), border;
-        rivals.bordered.push_back(basis(bordered));
-      }
-      all.push_back(std::move(rivals));
+      const auto bordered = [&](Eigen::Index border) {
+        MatrixXd functions(kTaps, powers + 1);
+        functions << smooth_.leftCols(powers), borders_.col(border);
+        return basis(functions);
+      };
+      all.push_back({basis(smooth_.leftCols(powers + 1)), bordered(0), bordered(1)});
     }
     return all;
   }
@@ -177,23 +171,36 @@ struct Support {
   }
 };
 
-Support SupportOf(const MirrorView& view,
-                  const Trace& trace,
-                  const LocatedBlade& inner,
-                  const LocatedBlade& other,
-                  BorderTest* test) {
-  // A line that was found is not to be seen again, nor the other blade; no part decides alone.
-  constexpr double kClearPx = 1.5, kLeast = -1, kMost = 8, kSpeaks = 1;
-  constexpr double kLeastBesidePx = 1;
-  Support support;
+// The light across part of a trace, and how much of it says something of the trace: a line that was
+// found is not to be seen again, nor the other blade.
+struct SeenPart {
+  VectorXd light;
+  Taps taps;
+};
+
+std::vector<SeenPart> PartsSeen(const MirrorView& view,
+                                const Trace& trace,
+                                const LocatedBlade& inner,
+                                const LocatedBlade& other) {
+  constexpr double kClearPx = 1.5, kLeastBesidePx = 1;
+  std::vector<SeenPart> seen;
   for (int index = 0; index < kParts; ++index) {
     const Part part = PartOf(trace.size(), index);
     const Vector2d middle = MiddleOf(trace, part);
     const double inwards = OutsideBy(inner, middle) - kClearPx;
     const double outwards = OutsideBy(other, middle) - kClearPx;
     if (std::min(inwards, outwards) < kLeastBesidePx) continue;
-    const Taps taps = TapsWithin(inwards, outwards);
-    const double log_odds = test->LogOdds(ProfileAcross(view, trace, part), taps);
+    seen.push_back({ProfileAcross(view, trace, part), TapsWithin(inwards, outwards)});
+  }
+  return seen;
+}
+
+// No part decides alone.
+Support SupportOf(const std::vector<SeenPart>& parts, bool may_slope, BorderTest* test) {
+  constexpr double kLeast = -1, kMost = 8, kSpeaks = 1;
+  Support support;
+  for (const SeenPart& part : parts) {
+    const double log_odds = test->LogOdds(part.light, part.taps, may_slope);
     support.log_odds += std::clamp(log_odds, kLeast, kMost);
     if (log_odds > kSpeaks) ++support.parts;
   }
@@ -238,6 +245,12 @@ Support DemandBeside(const LocatedEdge& inner) {
   return IsClear(inner) ? Support{16, 7} : Support{8, 4};
 }
 
+// A trace as it is seen.
+struct SeenTrace {
+  std::vector<SeenPart> parts;
+  bool leaves_end = false;
+};
+
 }  // namespace
 
 std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
@@ -256,16 +269,20 @@ std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
     const double half_rad = 0.5 * step * kStepPx / reach_px;
     return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
   };
+  std::vector<SeenTrace> traces;
+  for (int step = -farthest; step <= farthest; ++step) {
+    const Trace trace = MirroredEdge(other, turned(step));
+    traces.push_back(
+        {PartsSeen(view, trace, inner, other), LeavesEnd(trace, inner, difference_px)});
+  }
+  BorderTest test(blur_px);
   for (const bool may_slope : {false, true}) {
-    BorderTest test(blur_px, may_slope);
     std::vector<Support> supports;
     bool is_seen_beyond = false;
-    for (int step = -farthest; step <= farthest; ++step) {
-      const Trace trace = MirroredEdge(other, turned(step));
-      const Support support = SupportOf(view, trace, inner, other, &test);
-      const bool is_beyond = LeavesEnd(trace, inner, difference_px);
-      is_seen_beyond |= is_beyond && support.Meets(demand);
-      supports.push_back(is_beyond ? Support{} : support);
+    for (const SeenTrace& trace : traces) {
+      const Support support = SupportOf(trace.parts, may_slope, &test);
+      is_seen_beyond |= trace.leaves_end && support.Meets(demand);
+      supports.push_back(trace.leaves_end ? Support{} : support);
     }
     const auto best = std::max_element(
         supports.begin(), supports.end(), [](auto& a, auto& b) { return a.log_odds < b.log_odds; });

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "vision/bilinear.h"
+#include "vision/blurred_step.h"
 #include "vision/robust_statistics.h"
 
 namespace bladecurve {
@@ -73,30 +74,20 @@ std::optional<RimShape> FindCommonShape(const RimProfiles& profiles, const RimRo
   return shape;
 }
 
-// Light that goes with a power (1 or 2) of the distance within the rim and is none beyond, as a
-// lens shows it: the power's mean over a Gaussian. Sharp at the rim, its bend there would be taken
-// for a shift of the rim.
-double BlurredPower(double within_px, int power) {
-  constexpr double kBlurPx = 1.2;  // lens, pixel and the sampling between pixels
-  const double z = within_px / kBlurPx;
-  const double inside = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-  const double density = std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi);
-  const double first = z * inside + density;
-  return power == 1 ? kBlurPx * first : kBlurPx * kBlurPx * (z * first + inside);
-}
-
 // Linear least squares a f(t - d) + trend ~ a f - (a d) f' + trend, profile by profile. Within
-// the head light may also go with powers of the distance from the rim up to `shading`.
+// the head light may also go with powers of the distance from the rim up to `shading`; its bend at
+// the rim, were it sharp, would be taken for a shift of the rim.
 std::vector<RimMatch> MatchToShape(const RimProfiles& profiles,
                                    const RimRows& detrended,
                                    const RimShape& shape,
                                    int shading) {
+  constexpr double kBlurPx = 1.2;  // lens, pixel and the sampling between pixels
   const Eigen::Index taps = detrended.cols(), unknowns = 4 + shading;
   Basis basis(taps, unknowns);
   basis.rightCols(4) << Eigen::VectorXd::Ones(taps), profiles.t, shape.value, -shape.derivative;
   for (int power = 1; power <= shading; ++power) {
     for (Eigen::Index k = 0; k < taps; ++k)
-      basis(k, power - 1) = BlurredPower(shape.center_px - profiles.t[k], power);
+      basis(k, power - 1) = BlurredPower(shape.center_px - profiles.t[k], power, kBlurPx);
   }
   const Basis weighted = profiles.window.asDiagonal() * basis;
   const Normal normal = basis.transpose() * weighted;
