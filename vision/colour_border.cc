@@ -98,7 +98,8 @@ bool LiesInShadow(const Profile& profile, double border) {
   return outside > kEven * outer && inner < kEven * outer;
 }
 
-std::optional<Transition> TransitionIn(const Profile& profile) {
+// widest_bevel: rows; what mirrors the ground is no wider.
+std::optional<Transition> TransitionIn(const Profile& profile, double widest_bevel) {
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
   constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
   constexpr double kStillBlade = 0.4;
@@ -131,7 +132,8 @@ std::optional<Transition> TransitionIn(const Profile& profile) {
   const Transition found{0.5 * (last_ground + first_blade + 1),
                          HalfWay(profile, blades, blades_level, from, to),
                          HalfWay(profile, grounds, grounds_level, from, to)};
-  if (found.Certain() < 0 && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
+  const bool may_be_mirrored = found.Certain() < 0 && found.of_colour > -widest_bevel;
+  if (may_be_mirrored && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
   return found;
 }
 
@@ -165,9 +167,10 @@ struct EdgeInColours {
 
   [[nodiscard]] std::optional<Transition> TransitionOver(const Stretch& stretch,
                                                          int inner,
-                                                         int outer) const {
+                                                         int outer,
+                                                         double widest_bevel) const {
     const auto profile = ProfileAcross(stretch, inner, outer);
-    return profile ? TransitionIn(*profile) : std::nullopt;
+    return profile ? TransitionIn(*profile, widest_bevel) : std::nullopt;
   }
 
   // Blades taper: where much of a blade's width is too much, less of it is looked at; where a wide
@@ -178,7 +181,9 @@ struct EdgeInColours {
                                                            double gap_px) const {
     constexpr double kMuch = 0.65, kLess = 0.3, kNearlyAll = 0.95;  // of the blade's width
     constexpr double kOfGap = 0.6;
-    constexpr int kLeast = 6;  // rows
+    constexpr double kWidestBevel = 0.3;  // of the blade's width
+    constexpr int kLeast = 6;             // rows
+    const double widest_bevel = kWidestBevel * blade_px / colours.px;
     const int most_outer = static_cast<int>(kOfGap * gap_px / colours.px);
     if (most_outer < kLeast) return std::nullopt;
     const auto inner = [&](double of_blade) {
@@ -186,10 +191,12 @@ struct EdgeInColours {
     };
     for (const double of_blade : {kMuch, kLess, kNearlyAll}) {
       const int rows = inner(of_blade);
-      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
+      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer), widest_bevel))
+        return found;
     }
     const int rows = inner(kMuch);
-    return most_outer > rows ? TransitionOver(stretch, rows, most_outer) : std::nullopt;
+    return most_outer > rows ? TransitionOver(stretch, rows, most_outer, widest_bevel)
+                             : std::nullopt;
   }
 };
 

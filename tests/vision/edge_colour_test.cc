@@ -262,6 +262,18 @@ TEST(ColourBorder, IsNoneWhereABevelMirrorsTheGround) {
   }));
 }
 
+// A thread of the cloth was followed: the ground's colour goes on within it as bright as before,
+// but over more than any bevel's width.
+TEST(ColourBorder, LiesFarWithinALineOfThePlainGround) {
+  constexpr double kFarPx = 25;
+  const Vector3d steel(90, 86, 82), drape(170, 90, 40);
+  const auto light = [&](double d) { return steel + Smooth(d + kFarPx) * (drape - steel); };
+  const auto border = BorderBeside(light);
+  ASSERT_TRUE(border);
+  EXPECT_NEAR(border->offset_px, -kFarPx, 1.5);
+  EXPECT_FALSE(BorderBeside(light, 90)) << "a wide bevel may mirror the ground";
+}
+
 TEST(ColourBorder, IsNotSeenOnAGreyGroundNorWhereTheBladeMirrorsTheGround) {
   const Vector3d steel(170, 165, 160), paper(230, 228, 226), wood(60, 110, 190);
   EXPECT_FALSE(BorderBeside([&](double d) { return steel + Smooth(d) * (paper - steel); }));
