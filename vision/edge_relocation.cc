@@ -126,20 +126,6 @@ bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
   return blade.on_left ? pivot.asymmetry < 0 : pivot.asymmetry > 0;
 }
 
-// Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
-// other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
-// however clear.
-bool IsBetter(const std::optional<Relocated>& found,
-              const LocatedBlade& blade,
-              bool seen_alone_outside) {
-  constexpr double kClearer = 0.5, kAlone = 0.6;  // ambiguity
-  if (!found) return false;
-  const LocatedEdge& edge = found->blade.edge;
-  if (seen_alone_outside && edge.ambiguity <= kAlone) return true;
-  return edge.ambiguity <= kClearer &&
-         std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
-}
-
 Chosen InnerOne(const Pivot& pivot, Blades* blades) {
   return OneOf(blades, LiesInwards(blades->upper, pivot));
 }
@@ -153,6 +139,27 @@ double InPx(double share, const Pivot& pivot, const Blades& blades) {
 bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
   constexpr double kSigmas = 3;
   return InPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * 2 * pivot.SigmaPx();
+}
+
+// What is seen where the other one puts a blade, the other one not being seen where that puts it.
+struct SeenAlone {
+  bool outside = false;       // further out than the blade was
+  bool beyond_pivot = false;  // the blades differ by more than the pivot accounts for
+};
+
+// Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
+// other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
+// however clear. Not where the pivot may account for the difference, unless it is as sure there.
+bool IsBetter(const std::optional<Relocated>& found,
+              const LocatedBlade& blade,
+              const SeenAlone& alone) {
+  constexpr double kClearer = 0.5, kAlone = 0.6;  // ambiguity
+  if (!found) return false;
+  const LocatedEdge& edge = found->blade.edge;
+  const bool sure = alone.beyond_pivot || TotalSigma(edge) <= TotalSigma(blade.edge);
+  if (alone.outside && sure && edge.ambiguity <= kAlone) return true;
+  return edge.ambiguity <= kClearer &&
+         std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
 // The other blade's edge, mirrored, for want of a better one: as good as that, the pivot and the
@@ -190,10 +197,11 @@ void RelocateClearerOne(const MirrorView& view, const Pivot& pivot, Blades* blad
   const MirrorLine line = LineBetween(view, pivot, *blades);
   const std::optional<Relocated> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<Relocated> lower = LookWhereMirrored({view, pivot, blades->upper, line});
+  const bool beyond = DifferBeyondPivot(pivot, *blades);
   const bool upper_better =
-      IsBetter(upper, blades->upper, !lower && LiesInwards(blades->upper, pivot));
+      IsBetter(upper, blades->upper, {!lower && LiesInwards(blades->upper, pivot), beyond});
   const bool lower_better =
-      IsBetter(lower, blades->lower, !upper && LiesInwards(blades->lower, pivot));
+      IsBetter(lower, blades->lower, {!upper && LiesInwards(blades->lower, pivot), beyond});
   if (upper_better && lower_better) return;
   if (upper_better) {
     Replace(*upper, kWhereMirrored, &blades->upper);

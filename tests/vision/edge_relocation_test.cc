@@ -267,6 +267,25 @@ TEST(RelocateUnlikeEdges, TakesNoFaintStepForEdgesThatDifferByLessThanThePivotIs
   EXPECT_EQ(measured.blades.upper.moved, "");
 }
 
+// Beside the upper edge a line is drawn on the ground, faintly, where the other blade puts that
+// edge if the pivot lies aside.
+TEST(RelocateUnlikeEdges, TakesNoVaguerEdgeWherePivotsThatLieAsideMayPutIt) {
+  constexpr double kAsidePx = 5, kBandPx = 40, kFaint = -8, kSurePx = 0.3, kUnsurePx = 2;
+  const SceneSpec spec = SceneWithMarkers();
+  for (const double pivot_sigma_px : {kSurePx, kUnsurePx}) {
+    Measured measured{spec};
+    measured.photo = Measured::PhotoOf(testing::RetouchedAlongUpperEdge(
+        spec, -kBandPx, -2 * kAsidePx, [&](double, double) { return kFaint; }));
+    const Vector2d& axis = measured.truth.axis_px;
+    measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
+    measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+    measured.Compare();
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.upper.moved.empty(), pivot_sigma_px == kUnsurePx)
+        << measured.pivot.asymmetry;
+  }
+}
+
 // An oblique view parts clear edges as well.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
   const SceneSpec spec = SceneWithMarkers();
