@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/cross.h"
 #include "vision/nearest_pixel.h"
 
 namespace bladecurve {
@@ -286,6 +287,15 @@ double Likelihood(const BladePair& pair) {
   constexpr double kCutOff = 0.5;
   const bool whole = !pair.first.cut_off && !pair.second.cut_off;
   return (whole ? 1 : kCutOff) * pair.quality;
+}
+
+double TurnAtJoint(const BladePair& pair) {
+  const auto bisector = [&](const Vector2d& a, const Vector2d& b) {
+    return ((a - pair.pivot).normalized() + (b - pair.pivot).normalized()).eval();
+  };
+  const Vector2d blades = bisector(pair.first.tip, pair.second.tip);
+  const Vector2d shanks = -bisector(pair.shank_first, pair.shank_second);
+  return std::abs(std::atan2(Cross(shanks, blades), shanks.dot(blades)));
 }
 
 }  // namespace bladecurve

@@ -39,4 +39,9 @@ struct BladePair {
 // other end of them are the likelier reading.
 [[nodiscard]] double Likelihood(const BladePair& pair);
 
+// Between the bisector of the blades and that of the shanks, rad. 0.15 at most if they lie in line,
+// for handles of unlike size and shanks that the frame cuts; 0.4 to 0.7 where the blades are set at
+// an angle, as those of Lister's scissors.
+[[nodiscard]] double TurnAtJoint(const BladePair& pair);
+
 }  // namespace bladecurve

@@ -9,7 +9,6 @@
 
 #include "vision/nearest_pixel.h"
 #include "vision/robust_statistics.h"
-#include "vision/silhouette.h"
 
 namespace bladecurve {
 namespace {
@@ -44,8 +43,9 @@ Run FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Run&
 
 // The highest rise of a shank's inner side, its outer side being straight there.
 struct Rise {
-  double of_width = 0;  // over the shank's width
+  double height_px = 0;
   double along_px = 0;  // from where the shanks part
+  double width_px = 0;  // of the shank
 };
 
 // How much a shank's inner side leaves the line to its end in a step, typically over first..last.
@@ -77,7 +77,7 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   const double width = std::max(kNarrowest, Median(std::move(widths)));
   const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
   const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
-  Rise highest;
+  Rise highest{0, 0, width};
   for (int k = kReach; k + kReach < kSteps; ++k) {
     const auto at = sides.begin() + k;
     const auto before = std::min_element(at - kReach, at, nearer);
@@ -85,34 +85,30 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
     const auto base = [&](const auto& beside) {
       return beside->to + std::max(0.0, slope * static_cast<double>(at - beside));
     };
-    const double rise = (at->to - std::max(base(before), base(after))) / width;
+    const double rise = at->to - std::max(base(before), base(after));
     const double bulge = (std::min(before->from, after->from) - at->from) / width;
-    if (bulge < kStraight && rise > highest.of_width)
-      highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm()};
+    if (bulge < kStraight && rise > highest.height_px)
+      highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm(), width};
   }
   return highest;
 }
 
 }  // namespace
 
-bool ShanksCarryCatches(const cv::Mat& mask, const BladePair& pair) {
-  constexpr int kThings = 6;
-  constexpr double kHigh = 0.55;  // of the shank's width; ragged masks of scissors reach 0.42
+bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
+  constexpr double kHigh = 0.5;  // of the shanks' width; ragged masks of scissors reach 0.4
   constexpr double kAlike = 0.1;
   if (!pair.shank_crotch) return false;
-  const Vector2d& crotch = *pair.shank_crotch;
-  for (const Silhouette& thing : FindSilhouettes(mask, kThings)) {
-    if (!IsSetAt(thing.filled, pair.pivot)) continue;
-    const auto rise = [&](const Vector2d& end, const Vector2d& other_end) {
-      return HighestRise(thing.filled, ShankTo(end, other_end, crotch), pair.shanks_run_out);
-    };
-    const Rise first = rise(pair.shank_first, pair.shank_second);
-    const Rise second = rise(pair.shank_second, pair.shank_first);
-    return std::min(first.of_width, second.of_width) > kHigh &&
-           std::abs(first.along_px - second.along_px) <
-               kAlike * std::max(first.along_px, second.along_px);
-  }
-  return false;
+  const auto rise = [&](const Vector2d& end, const Vector2d& other_end) {
+    return HighestRise(filled, ShankTo(end, other_end, *pair.shank_crotch), pair.shanks_run_out);
+  };
+  const Rise first = rise(pair.shank_first, pair.shank_second);
+  const Rise second = rise(pair.shank_second, pair.shank_first);
+  // The shanks of a pair are as wide; a shadow beside one of them is not its own.
+  const double width_px = std::min(first.width_px, second.width_px);
+  return std::min(first.height_px, second.height_px) > kHigh * width_px &&
+         std::abs(first.along_px - second.along_px) <
+             kAlike * std::max(first.along_px, second.along_px);
 }
 
 }  // namespace bladecurve

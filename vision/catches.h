@@ -10,7 +10,7 @@ namespace bladecurve {
 
 // Whether both shanks carry a catch, as those of clamps and needle holders do and of scissors do
 // not: each is wide for a short way before its ring begins, both at like distance from where they
-// part. mask: CV_8UC1, the one that shows the pair.
-[[nodiscard]] bool ShanksCarryCatches(const cv::Mat& mask, const BladePair& pair);
+// part. filled: CV_8UC1, the silhouette of the pair, its holes filled.
+[[nodiscard]] bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair);
 
 }  // namespace bladecurve

@@ -10,10 +10,13 @@
 #include "vision/blades.h"
 #include "vision/catches.h"
 #include "vision/cross.h"
+#include "vision/limb_count.h"
+#include "vision/nearest_pixel.h"
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_ladder.h"
 #include "vision/scene_trace.h"
+#include "vision/silhouette.h"
 
 namespace bladecurve {
 namespace {
@@ -161,11 +164,30 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
   }
 }
 
-void RefuseClamps(const Candidate& found, const StoredHints& hints) {
-  if (hints.pivot_px || !ShanksCarryCatches(found.mask, found.pair)) return;
-  throw Refused(Reason::kNotScissors,
-                "scene: both shanks carry a catch, as those of clamps and needle holders do, which "
-                "do not cut; if these are scissors, say where the screw is: --pivot X,Y");
+// Instruments whose limbs look like those of scissors, and blades that one view does not show.
+void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
+  constexpr int kThings = 6;
+  constexpr double kAngled = 0.3;  // rad
+  if (hints.pivot_px) return;
+  const std::vector<Silhouette> things = FindSilhouettes(found.mask, kThings);
+  const auto own = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
+    return IsSetAt(thing.filled, found.pair.pivot);
+  });
+  if (own != things.end() && CountLimbsAhead(own->filled, found.pair) > 2) {
+    throw Refused(Reason::kSeveralScissors,
+                  "scene: more than two blades cross at one place; part the instruments, or say "
+                  "where the screw is: --pivot X,Y");
+  }
+  if (TurnAtJoint(found.pair) > kAngled) {
+    throw Refused(Reason::kOutOfPlane,
+                  "scene: the blades are set at an angle to the shanks, as those of bandage "
+                  "scissors are; if they lie flat, say where the screw is: --pivot X,Y");
+  }
+  if (own != things.end() && ShanksCarryCatches(own->filled, found.pair)) {
+    throw Refused(Reason::kNotScissors,
+                  "scene: both shanks carry a catch, as those of clamps and needle holders do, "
+                  "which do not cut; if these are scissors, say where the screw is: --pivot X,Y");
+  }
 }
 
 }  // namespace
@@ -176,7 +198,7 @@ Scene FindScene(const Photo& photo,
                 StageLog* log) {
   const LadderResult ladder = ClimbLadder(photo, markers, hints, log);
   RefuseUnlessUsable(ladder, hints);
-  RefuseClamps(ladder.best, hints);
+  RefuseOtherInstruments(ladder.best, hints);
   Scene scene = SceneFrom(ladder.best);
   if (hints.pivot_px) {
     scene.pivot_px = *hints.pivot_px;

@@ -16,6 +16,7 @@
 #include "vision/catches.h"
 #include "vision/closed_shape.h"
 #include "vision/flood.h"
+#include "vision/limb_count.h"
 #include "vision/measure.h"
 #include "vision/photo.h"
 #include "vision/png_writer.h"
@@ -361,8 +362,90 @@ TEST(ShanksCarryCatches, TakesNoRingsThatTheFrameCutsForCatches) {
       (side < 0 ? pair.shank_first : pair.shank_second) = {320 + side * 240.0, 390};
     }
     mask = mask.rowRange(0, 391);
-    EXPECT_EQ(ShanksCarryCatches(mask, pair), catches);
+    EXPECT_EQ(ShanksCarryCatches(FindSilhouettes(mask, 1).front().filled, pair), catches);
   }
+}
+
+// A shadow makes one shank look wider than the other, and its catch lower.
+TEST(ShanksCarryCatches, FindsTheCatchOfAShankThatLooksWide) {
+  for (const bool catches : {false, true}) {
+    cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
+    BladePair pair;
+    pair.pivot = {320, 180};
+    pair.shank_crotch = {320, 195};
+    for (const int side : {-1, 1}) {
+      const auto at = [&](int x, int y) { return cv::Point(320 + side * x, y); };
+      cv::line(mask, at(0, 180), at(108, 385), 255, 12);
+      cv::circle(mask, at(120, 412), 30, 255, 6);
+      if (side > 0) cv::line(mask, at(8, 184), at(112, 380), 255, 12);
+      if (catches) cv::line(mask, at(74, 310), at(62, 317), 255, 12);
+      (side < 0 ? pair.shank_first : pair.shank_second) = {320 + side * 135.0, 438};
+    }
+    EXPECT_EQ(ShanksCarryCatches(FindSilhouettes(mask, 1).front().filled, pair), catches);
+  }
+}
+
+// Blades of another pair that lies on the first one, joint on joint.
+TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
+  constexpr double kBladePx = 200, kShankPx = 240;
+  const Eigen::Vector2d pivot(320, 240);
+  cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
+  const auto from_pivot = [&](double direction_deg, double way_px) {
+    const double direction = direction_deg * kDegree;
+    return Eigen::Vector2d(pivot +
+                           way_px * Eigen::Vector2d(std::cos(direction), std::sin(direction)));
+  };
+  const auto draw = [&](double direction_deg, double way_px, int width_px) {
+    const Eigen::Vector2d end = from_pivot(direction_deg, way_px);
+    cv::line(mask, {320, 240}, cv::Point2d(end.x(), end.y()), 255, width_px);
+  };
+  BladePair pair;
+  pair.pivot = pivot;
+  pair.first.tip = from_pivot(-15, kBladePx);
+  pair.second.tip = from_pivot(15, kBladePx);
+  for (const int side : {-1, 1}) {
+    draw(15 * side, kBladePx, 14);
+    draw(180 + 40 * side, kShankPx, 14);
+  }
+  EXPECT_EQ(CountLimbsAhead(mask, pair), 2);
+  draw(75, 0.5 * kBladePx, 14);
+  EXPECT_EQ(CountLimbsAhead(mask, pair), 2) << "too short for a blade";
+  draw(75, kBladePx, 14);
+  EXPECT_EQ(CountLimbsAhead(mask, pair), 3);
+  draw(-60, kBladePx, 14);
+  EXPECT_EQ(CountLimbsAhead(mask, pair), 4);
+}
+
+// Scissors as a sketch, their blades turned aside at the joint.
+cv::Mat SketchTurnedBy(double turn_rad) {
+  constexpr double kHalfOpening = 0.25, kBladePx = 230, kShankPx = 300, kHalfWidePx = 20;
+  cv::Mat picture(750, 1000, CV_8UC3, cv::Scalar::all(225));
+  const cv::Point2d joint(500, 375);
+  const auto from_joint = [&](double direction, double ahead_px, double aside_px) {
+    return cv::Point(joint +
+                     cv::Point2d(ahead_px * std::cos(direction) - aside_px * std::sin(direction),
+                                 ahead_px * std::sin(direction) + aside_px * std::cos(direction)));
+  };
+  const cv::Scalar metal = cv::Scalar::all(90);
+  for (const int side : {-1, 1}) {
+    const double blade = turn_rad + side * kHalfOpening;
+    const double shank = std::numbers::pi + side * kHalfOpening;
+    // The cutting edge passes the joint on its far side.
+    const std::vector<cv::Point> outline{from_joint(blade, kBladePx, 0),
+                                         from_joint(blade, 0, -side * 0.5 * kHalfWidePx),
+                                         from_joint(blade, 0, side * 1.5 * kHalfWidePx)};
+    cv::fillConvexPoly(picture, outline, metal, cv::LINE_AA);
+    cv::line(picture, joint, from_joint(shank, kShankPx, 0), metal, 18, cv::LINE_AA);
+    cv::circle(picture, from_joint(shank, kShankPx + 40, 0), 42, metal, 12, cv::LINE_AA);
+  }
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  return picture;
+}
+
+TEST(FindScene, RefusesBladesSetAtAnAngle) {
+  EXPECT_NE(ReasonFor(SketchTurnedBy(0)), "out_of_plane");
+  for (const double turn_deg : {-40.0, 30.0})
+    EXPECT_EQ(ReasonFor(SketchTurnedBy(turn_deg * kDegree)), "out_of_plane") << turn_deg;
 }
 
 TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
