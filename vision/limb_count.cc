@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 // Directions from the blades' bisector, rad, of the middles of all that the silhouette shows on the
-// circle about the pivot. Shanks lie further off.
+// circle about the pivot.
 std::vector<double> DirectionsAhead(const cv::Mat& filled,
                                     const Vector2d& pivot,
                                     const Vector2d& bisector,
@@ -44,9 +44,11 @@ std::vector<double> DirectionsAhead(const cv::Mat& filled,
 int CountLimbsAhead(const cv::Mat& filled, const BladePair& pair) {
   constexpr std::array kShares = {0.4, 0.55, 0.7};  // of the shorter blade
   constexpr double kSame = 0.17;                    // rad
+  constexpr double kAlongShank = 0.95;              // cosine
   const Vector2d first = pair.first.tip - pair.pivot, second = pair.second.tip - pair.pivot;
   const Vector2d bisector = (first.normalized() + second.normalized()).normalized();
   const double length_px = std::min(first.norm(), second.norm());
+  const Vector2d across(-bisector.y(), bisector.x());
   std::vector<double> limbs;
   for (const double share : kShares) {
     const std::vector<double> seen =
@@ -60,6 +62,12 @@ int CountLimbsAhead(const cv::Mat& filled, const BladePair& pair) {
           seen.begin(), seen.end(), [&](double at) { return std::abs(at - limb) < kSame; });
     });
   }
+  const auto is_shank = [&](double limb) {
+    const Vector2d direction = std::cos(limb) * bisector + std::sin(limb) * across;
+    return std::max(direction.dot((pair.shank_first - pair.pivot).normalized()),
+                    direction.dot((pair.shank_second - pair.pivot).normalized())) > kAlongShank;
+  };
+  std::erase_if(limbs, is_shank);
   return static_cast<int>(limbs.size());
 }
 

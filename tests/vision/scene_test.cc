@@ -405,8 +405,10 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   pair.second.tip = from_pivot(15, kBladePx);
   for (const int side : {-1, 1}) {
     draw(15 * side, kBladePx, 14);
-    draw(180 + 40 * side, kShankPx, 14);
+    draw(180 + 70 * side, kShankPx, 14);
   }
+  pair.shank_first = from_pivot(110, kShankPx);
+  pair.shank_second = from_pivot(250, kShankPx);
   EXPECT_EQ(CountLimbsAhead(mask, pair), 2);
   draw(75, 0.5 * kBladePx, 14);
   EXPECT_EQ(CountLimbsAhead(mask, pair), 2) << "too short for a blade";
