@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -46,6 +47,29 @@ TEST(LocateMarkerCorners, AreGoodToAHundredthOfAPixel) {
     SquareImage image = MarkerImage(150);
     image.blur_px = blur;
     EXPECT_LT(CornerRms(image, LinearToneCurve(), 10), 0.01) << "blur " << blur;
+  }
+}
+
+// On a light table, the label that it is printed on is a darker square as well.
+TEST(DetectMarkers, SeesAMarkerOnALabelWithANarrowMarginOnABrighterGround) {
+  constexpr double kSidePx = 120, kGround = 245, kPaper = 215, kSamePx = 2;
+  for (const double margin : {0.1, 0.17, 0.3}) {
+    std::mt19937 random(3);
+    SquareImage image = MarkerImage(kSidePx);
+    image.bright = kPaper / 255;
+    cv::Mat grey = Draw(image, &random);
+    const double half_px = (0.5 + margin) * kSidePx;
+    for (int y = 0; y < grey.rows; ++y) {
+      for (int x = 0; x < grey.cols; ++x) {
+        const Eigen::Vector2d place =
+            Eigen::Rotation2Dd(-image.angle_rad) * (Eigen::Vector2d(x, y) - image.centre_px);
+        if (place.cwiseAbs().maxCoeff() > half_px) grey.at<uchar>(y, x) = kGround;
+      }
+    }
+    const std::vector<RoughMarker> markers = DetectMarkers(grey);
+    ASSERT_EQ(markers.size(), 1U) << margin;
+    EXPECT_EQ(markers[0].id, image.marker);
+    EXPECT_LT((markers[0].corners_px[0] - Corners(image)[0]).norm(), kSamePx);
   }
 }
 
