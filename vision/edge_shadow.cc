@@ -44,7 +44,9 @@ DarkBand JudgeDarkBand(const cv::Mat& bgr,
   constexpr double kDeepest = 0.45, kDeep = 0.25;  // of the blade's width, from the inner step
   constexpr double kToldApart = 0.15;              // chromas nearer than that are not
   constexpr double kShadow = 0.45, kMetal = 0.6;   // of the way from background to blade
-  constexpr double kScatter = 0.05;                // of chromas: skylight, colours that bleed
+  constexpr double kBleedPx = 5;  // colours are stored at half the resolution: bright metal lends a
+                                  // narrow dark band its own, but no more than that
+  constexpr double kScatter = 0.05;  // of chromas: skylight, colours that bleed
   const double inner = std::min(edge.rival_px, 0.0), outer = std::max(edge.rival_px, 0.0);
   const double width = outer - inner;
   const auto band = ChromaAlong(bgr, tone, edge, inner + kBlur, outer - kBlur);
@@ -57,7 +59,8 @@ DarkBand JudgeDarkBand(const cv::Mat& bgr,
   const double share = (*band - *ground).dot(way) / way.squaredNorm();
   const double unsure = kScatter / way.norm();
   if (share < std::min(kShadow, 0.5 - unsure)) return DarkBand::kShadow;
-  return share > std::max(kMetal, 0.5 + unsure) ? DarkBand::kMetal : DarkBand::kUnknown;
+  const double least_metal = width > kBleedPx ? std::max(kMetal, 0.5 + unsure) : 1 + unsure;
+  return share > least_metal ? DarkBand::kMetal : DarkBand::kUnknown;
 }
 
 }  // namespace bladecurve

@@ -129,13 +129,18 @@ LocatedEdge OutsideABand() {
   return edge;
 }
 
-DarkBand Judge(const Vector3d& blade, const Vector3d& band, const Vector3d& ground) {
+DarkBand Judge(const Vector3d& blade,
+               const Vector3d& band,
+               const Vector3d& ground,
+               double width_px = 9) {
   Gaussian random(3);
   const cv::Mat bgr = Coloured(random, [&](double d) {
-    return blade + Smooth(d + 9) * (band - blade) + Smooth(d) * (ground - band);
+    return blade + Smooth(d + width_px) * (band - blade) + Smooth(d) * (ground - band);
   });
   constexpr double kBladePx = 60;
-  return JudgeDarkBand(bgr, testing::GammaCurve(1), OutsideABand(), kBladePx);
+  LocatedEdge edge = OutsideABand();
+  edge.rival_px = -width_px;
+  return JudgeDarkBand(bgr, testing::GammaCurve(1), edge, kBladePx);
 }
 
 TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
@@ -145,6 +150,16 @@ TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
   EXPECT_EQ(Judge(brass, 0.2 * brass, steel), DarkBand::kMetal);
   const Vector3d skylight(8, 5, 2);  // shadows are a little bluer than the ground in the sun
   EXPECT_EQ(Judge(steel, 0.3 * wood + skylight, wood), DarkBand::kShadow);
+}
+
+// The blade's colour bleeds over a narrow band, whatever that is.
+TEST(JudgeDarkBand, TakesNoNarrowBandOfTheBladesColourForMetal) {
+  constexpr double kNarrowPx = 4;
+  const Vector3d steel(170, 165, 160), brass(90, 150, 200), wood(60, 110, 190);
+  EXPECT_EQ(Judge(steel, 0.3 * steel, wood, kNarrowPx), DarkBand::kUnknown);
+  EXPECT_EQ(Judge(steel, 0.3 * wood, wood, kNarrowPx), DarkBand::kShadow);
+  const Vector3d bluer = steel + 0.4 * (steel - 0.8 * wood);
+  EXPECT_EQ(Judge(steel, 0.3 * bluer, wood, kNarrowPx), DarkBand::kMetal);
 }
 
 // Skylight and colours that bleed shift what is seen by as much as these two differ.
