@@ -254,7 +254,7 @@ std::optional<PlaceOnCourse> AbreastOnCourse(const std::vector<LocatedEdgePoint>
                               ? 0
                               : offset.px - OffsetAtPlace(clear, way_px, doubt.correlation_px).px;
   const bool bridged = distal.back().row[1] > -kWidestGap;
-  const double alone_px = bridged ? 0 : kOffBeyondGap * way_px;
+  const double alone_px = bridged ? 0 : std::hypot(kOffBeyondGap * way_px, offset.px);
   return PlaceOnCourse{place_px + (bridged ? offset.px : 0) * across,
                        std::hypot(offset.sigma_px, moved_px, alone_px)};
 }

@@ -52,8 +52,8 @@ struct CourseDoubt {
 // The point abreast of `place_px`, at or a little beyond the distal end of an edge, on the cubic
 // that its inlying points follow over the distal three fifths up to there; as uncertain, too, as
 // the points that the tip cannot have bent would put it elsewhere. Where the points end far before,
-// the place itself, which is as often off as the cubic, and by as much. std::nullopt for fewer than
-// 20 such points.
+// the place itself, which is as often off as the cubic, and as uncertain as they differ.
+// std::nullopt for fewer than 20 such points.
 [[nodiscard]] std::optional<PlaceOnCourse> AbreastOnCourse(
     const std::vector<LocatedEdgePoint>& points,
     const CourseDoubt& doubt,

@@ -132,13 +132,15 @@ TEST(AbreastOnCourse, DoubtsPointsThatTheTipMayHaveBent) {
 }
 
 TEST(AbreastOnCourse, BridgesNoWideGap) {
-  constexpr double kOffPx = 2;
-  const Eigen::Vector2d place_px = EndOnEdge() + Eigen::Vector2d(0, kOffPx);
-  const auto found =
-      AbreastOnCourse(Edge(240, kLength - 240, [](int) { return 0.0; }), {16, 0}, place_px);
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->point_px, place_px);
-  EXPECT_GT(found->across_sigma_px, 0.5 * kOffPx);
+  for (const double off_px : {2.0, 20.0}) {
+    const Eigen::Vector2d place_px = EndOnEdge() + Eigen::Vector2d(0, off_px);
+    const auto found =
+        AbreastOnCourse(Edge(240, kLength - 240, [](int) { return 0.0; }), {16, 0}, place_px);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->point_px, place_px);
+    EXPECT_GT(found->across_sigma_px, 0.5 * off_px);
+    EXPECT_LT(found->across_sigma_px, 2 * off_px);
+  }
   EXPECT_FALSE(AbreastOnCourse({}, kAlone, EndOnEdge()));
 }
 
