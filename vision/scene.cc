@@ -175,8 +175,9 @@ void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
   });
   if (own != things.end() && CountLimbsAhead(own->filled, found.pair) > 2) {
     throw Refused(Reason::kSeveralScissors,
-                  "scene: more than two blades cross at one place; part the instruments, or say "
-                  "where the screw is: --pivot X,Y");
+                  "scene: more than two blades cross at one place, or hard shadows that look like "
+                  "more; part the instruments, use softer light, or say where the screw is: "
+                  "--pivot X,Y");
   }
   if (TurnAtJoint(found.pair) > kAngled) {
     throw Refused(Reason::kOutOfPlane,
