@@ -77,7 +77,8 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   const double width = std::max(kNarrowest, Median(std::move(widths)));
   const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
   const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
-  Rise highest{0, 0, width};
+  Rise highest;
+  highest.width_px = width;
   for (int k = kReach; k + kReach < kSteps; ++k) {
     const auto at = sides.begin() + k;
     const auto before = std::min_element(at - kReach, at, nearer);
@@ -87,8 +88,10 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
     };
     const double rise = at->to - std::max(base(before), base(after));
     const double bulge = (std::min(before->from, after->from) - at->from) / width;
-    if (bulge < kStraight && rise > highest.height_px)
-      highest = {rise, (kFirst + kStep * k) * (shank.to - shank.from).norm(), width};
+    if (bulge < kStraight && rise > highest.height_px) {
+      highest.height_px = rise;
+      highest.along_px = (kFirst + kStep * k) * (shank.to - shank.from).norm();
+    }
   }
   return highest;
 }

@@ -142,6 +142,7 @@ struct EdgeInColours {
   const ReducedColours& colours;
   const ToneCurve& tone;
   const LocatedEdge& edge;
+  double blade_px;  // of the photograph
 
   // std::nullopt where much of it is out of the picture.
   [[nodiscard]] std::optional<Profile> ProfileAcross(const Stretch& stretch,
@@ -167,23 +168,20 @@ struct EdgeInColours {
 
   [[nodiscard]] std::optional<Transition> TransitionOver(const Stretch& stretch,
                                                          int inner,
-                                                         int outer,
-                                                         double widest_bevel) const {
+                                                         int outer) const {
+    constexpr double kWidestBevel = 0.3;  // of the blade's width
     const auto profile = ProfileAcross(stretch, inner, outer);
-    return profile ? TransitionIn(*profile, widest_bevel) : std::nullopt;
+    return profile ? TransitionIn(*profile, kWidestBevel * blade_px / colours.px) : std::nullopt;
   }
 
   // Blades taper: where much of a blade's width is too much, less of it is looked at; where a wide
   // shadow passes for part of it, nearly all; and where a wide bevel passes for ground, most of the
   // gap.
   [[nodiscard]] std::optional<Transition> TransitionAcross(const Stretch& stretch,
-                                                           double blade_px,
                                                            double gap_px) const {
     constexpr double kMuch = 0.65, kLess = 0.3, kNearlyAll = 0.95;  // of the blade's width
     constexpr double kOfGap = 0.6;
-    constexpr double kWidestBevel = 0.3;  // of the blade's width
-    constexpr int kLeast = 6;             // rows
-    const double widest_bevel = kWidestBevel * blade_px / colours.px;
+    constexpr int kLeast = 6;  // rows
     const int most_outer = static_cast<int>(kOfGap * gap_px / colours.px);
     if (most_outer < kLeast) return std::nullopt;
     const auto inner = [&](double of_blade) {
@@ -191,12 +189,10 @@ struct EdgeInColours {
     };
     for (const double of_blade : {kMuch, kLess, kNearlyAll}) {
       const int rows = inner(of_blade);
-      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer), widest_bevel))
-        return found;
+      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
     }
     const int rows = inner(kMuch);
-    return most_outer > rows ? TransitionOver(stretch, rows, most_outer, widest_bevel)
-                             : std::nullopt;
+    return most_outer > rows ? TransitionOver(stretch, rows, most_outer) : std::nullopt;
   }
 };
 
@@ -253,15 +249,14 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
-  const EdgeInColours seen{colours, tone, edge};
+  const EdgeInColours seen{colours, tone, edge, blade_px};
   std::vector<StretchOffset> offsets;
   std::vector<double> certain;
   std::vector<Vector2d> border;
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
     const LocatedEdgePoint& middle = edge.points[(stretch.first + stretch.last) / 2];
-    const auto transition =
-        seen.TransitionAcross(stretch, blade_px, DistanceTo(other, middle.trend_px));
+    const auto transition = seen.TransitionAcross(stretch, DistanceTo(other, middle.trend_px));
     if (!transition) continue;
     offsets.push_back({k, colours.px * transition->of_colour});
     border.push_back(middle.trend_px + offsets.back().offset_px * middle.normal);

@@ -11,7 +11,6 @@
 #include "vision/catches.h"
 #include "vision/cross.h"
 #include "vision/limb_count.h"
-#include "vision/nearest_pixel.h"
 #include "vision/refused.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_ladder.h"
@@ -170,10 +169,8 @@ void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
   constexpr double kAngled = 0.3;  // rad
   if (hints.pivot_px) return;
   const std::vector<Silhouette> things = FindSilhouettes(found.mask, kThings);
-  const auto own = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
-    return IsSetAt(thing.filled, found.pair.pivot);
-  });
-  if (own != things.end() && CountLimbsAhead(own->filled, found.pair) > 2) {
+  const Silhouette* own = ThingAt(things, found.pair.pivot);
+  if (own != nullptr && CountLimbsAhead(own->filled, found.pair) > 2) {
     throw Refused(Reason::kSeveralScissors,
                   "scene: more than two blades cross at one place, or hard shadows that look like "
                   "more; part the instruments, use softer light, or say where the screw is: "
@@ -184,7 +181,7 @@ void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
                   "scene: the blades are set at an angle to the shanks, as those of bandage "
                   "scissors are; if they lie flat, say where the screw is: --pivot X,Y");
   }
-  if (own != things.end() && ShanksCarryCatches(own->filled, found.pair)) {
+  if (own != nullptr && ShanksCarryCatches(own->filled, found.pair)) {
     throw Refused(Reason::kNotScissors,
                   "scene: both shanks carry a catch, as those of clamps and needle holders do, "
                   "which do not cut; if these are scissors, say where the screw is: --pivot X,Y");

@@ -89,12 +89,10 @@ bool ShowsAnother(const Candidate& best) {
   constexpr double kLeastArea = 0.1;  // of the scissors'
   constexpr double kFilled = 0.6;     // share of its convex hull
   const std::vector<Silhouette> things = FindSilhouettes(best.mask, kThings);
-  const auto own = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
-    return IsSetAt(thing.filled, best.pair.pivot);
-  });
-  if (own == things.end()) return false;
+  const Silhouette* own = ThingAt(things, best.pair.pivot);
+  if (own == nullptr) return false;
   return std::any_of(things.begin(), things.end(), [&](const Silhouette& thing) {
-    if (&thing == &*own || thing.area_px < kLeastArea * own->area_px) return false;
+    if (&thing == own || thing.area_px < kLeastArea * own->area_px) return false;
     std::vector<cv::Point> hull;
     cv::convexHull(thing.contour, hull);
     return thing.area_px < kFilled * cv::contourArea(hull);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/nearest_pixel.h"
+
 namespace bladecurve {
 
 cv::Mat MaskAbove(const cv::Mat& distance, double threshold) {
@@ -42,6 +44,13 @@ std::vector<Silhouette> FindSilhouettes(const cv::Mat& mask, int most) {
     cv::drawContours(s.filled, std::vector<std::vector<cv::Point>>{s.contour}, 0, 255, cv::FILLED);
   }
   return found;
+}
+
+const Silhouette* ThingAt(const std::vector<Silhouette>& things, const Eigen::Vector2d& at_px) {
+  const auto found = std::find_if(things.begin(), things.end(), [&](const Silhouette& thing) {
+    return IsSetAt(thing.filled, at_px);
+  });
+  return found == things.end() ? nullptr : &*found;
 }
 
 }  // namespace bladecurve

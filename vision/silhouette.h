@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -21,5 +22,9 @@ struct Silhouette {
 // The connected things in `mask` that are long enough to be scissors, largest first, at most
 // `most`.
 [[nodiscard]] std::vector<Silhouette> FindSilhouettes(const cv::Mat& mask, int most);
+
+// Of `things`, the one that covers a place, its holes included; nullptr if none does.
+[[nodiscard]] const Silhouette* ThingAt(const std::vector<Silhouette>& things,
+                                        const Eigen::Vector2d& at_px);
 
 }  // namespace bladecurve

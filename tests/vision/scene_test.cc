@@ -344,44 +344,57 @@ TEST(MeasurePhoto, RefusesShanksThatCarryTheCatchesOfAClamp) {
   EXPECT_EQ(ReasonFor(picture, hints), "");
 }
 
+// Shanks as a mask shows them.
+struct DrawnShanks {
+  cv::Mat mask = cv::Mat::zeros(480, 640, CV_8UC1);
+  BladePair pair;
+
+  // draw(side, mask, at) draws one side, at(x, y) counting x outwards from the middle, and says
+  // where the shank ends there.
+  template <typename Draw>
+  explicit DrawnShanks(const Draw& draw) {
+    pair.pivot = {320, 180};
+    pair.shank_crotch = {320, 195};
+    for (const int side : {-1, 1}) {
+      const cv::Point end =
+          draw(side, mask, [&](int x, int y) { return cv::Point(320 + side * x, y); });
+      (side < 0 ? pair.shank_first : pair.shank_second) = {end.x, end.y};
+    }
+  }
+
+  [[nodiscard]] bool CarryCatches() const {
+    return ShanksCarryCatches(FindSilhouettes(mask, 1).front().filled, pair);
+  }
+};
+
 // The ends of the shanks are then where the frame cuts the rings' outer rims, and the corners at
 // which the shanks meet the rings rise above the lines to there.
 TEST(ShanksCarryCatches, TakesNoRingsThatTheFrameCutsForCatches) {
   for (const bool catches : {false, true}) {
-    cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
-    BladePair pair;
-    pair.pivot = {320, 180};
-    pair.shank_crotch = {320, 195};
-    pair.shanks_run_out = true;
-    for (const int side : {-1, 1}) {
-      const auto at = [&](int x, int y) { return cv::Point(320 + side * x, y); };
+    DrawnShanks shanks([&](int, cv::Mat& mask, const auto& at) {
       cv::line(mask, at(-60, 40), at(0, 180), 255, 20);
       cv::line(mask, at(0, 180), at(108, 385), 255, 12);
       cv::circle(mask, at(173, 405), 65, 255, 6);
       if (catches) cv::line(mask, at(70, 310), at(55, 320), 255, 14);
-      (side < 0 ? pair.shank_first : pair.shank_second) = {320 + side * 240.0, 390};
-    }
-    mask = mask.rowRange(0, 391);
-    EXPECT_EQ(ShanksCarryCatches(FindSilhouettes(mask, 1).front().filled, pair), catches);
+      return at(240, 390);
+    });
+    shanks.pair.shanks_run_out = true;
+    shanks.mask = shanks.mask.rowRange(0, 391);
+    EXPECT_EQ(shanks.CarryCatches(), catches);
   }
 }
 
 // A shadow makes one shank look wider than the other, and its catch lower.
 TEST(ShanksCarryCatches, FindsTheCatchOfAShankThatLooksWide) {
   for (const bool catches : {false, true}) {
-    cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(0));
-    BladePair pair;
-    pair.pivot = {320, 180};
-    pair.shank_crotch = {320, 195};
-    for (const int side : {-1, 1}) {
-      const auto at = [&](int x, int y) { return cv::Point(320 + side * x, y); };
+    const DrawnShanks shanks([&](int side, cv::Mat& mask, const auto& at) {
       cv::line(mask, at(0, 180), at(108, 385), 255, 12);
       cv::circle(mask, at(120, 412), 30, 255, 6);
       if (side > 0) cv::line(mask, at(8, 184), at(112, 380), 255, 12);
       if (catches) cv::line(mask, at(74, 310), at(62, 317), 255, 12);
-      (side < 0 ? pair.shank_first : pair.shank_second) = {320 + side * 135.0, 438};
-    }
-    EXPECT_EQ(ShanksCarryCatches(FindSilhouettes(mask, 1).front().filled, pair), catches);
+      return at(135, 438);
+    });
+    EXPECT_EQ(shanks.CarryCatches(), catches);
   }
 }
 
