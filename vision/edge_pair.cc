@@ -26,6 +26,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kAsGood = 0.45;  // ambiguity; below, the other transition is no match
+constexpr double kFaint = 0.25;   // the same; beside dark metal a shadow's begin is a low step
 
 // The edge as scene finding traced it, for want of a better one: good to a pixel of the small
 // picture, and marked as doubtful.
@@ -189,7 +190,7 @@ class BladeLocator {
     LocatedEdge edge = InGreyOr(InViewOrHalved, GuessFor(scene_, left));
     if (IsShadowsBorder(edge, options_.most_blur_px)) edge = LeaveSoftShadow(std::move(edge), left);
     edge = AlongItsCurve(std::move(edge), left);
-    return HasDarkBand(edge) ? SettleDarkBand(std::move(edge), left) : edge;
+    return HasDarkBand(edge, kFaint) ? SettleDarkBand(std::move(edge), left) : edge;
   }
 
   [[nodiscard]] LocatedEdge LocateOrTrace(bool left) {
@@ -199,7 +200,6 @@ class BladeLocator {
 
   // The edge along the inner side of a dark band beside it, however faint, if it is seen there.
   [[nodiscard]] std::optional<LocatedEdge> WithinBand(const LocatedEdge& edge, bool left) const {
-    constexpr double kFaint = 0.25;  // ambiguity; beside dark metal that side is a low step
     if (!HasDarkBand(edge, kFaint) || edge.rival_px > 0) return std::nullopt;
     return AlongSide(edge.rival_path_px, edge, left);
   }

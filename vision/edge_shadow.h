@@ -11,12 +11,13 @@ namespace bladecurve {
 
 // What a dark band along a blade's edge is.
 enum class DarkBand {
-  kShadow,  // the colour of the background, only darker
-  kMetal,   // the blade's own colour: its bevel
-  kUnknown  // blade and background are alike in colour
+  kShadow,  // the background, only darker
+  kMetal,   // the blade's bevel
+  kUnknown
 };
 
-// Judges the band between a located edge and its rival by colour. bgr: CV_8UC3, the whole
+// Judges the band between a located edge and its rival: by colour; where blade and background are
+// alike in that, by whether the background's pattern goes on in it. bgr: CV_8UC3, the whole
 // photograph at full resolution; blade_px: how wide the blade is.
 [[nodiscard]] DarkBand JudgeDarkBand(const cv::Mat& bgr,
                                      const ToneCurve& tone,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// Edges that grey hides and colour shows, and dark bands told apart by their colour.
+// Edges that grey hides and colour shows, and dark bands told apart by their colour or pattern.
 #include "vision/edge_colour.h"
 
 #include <gtest/gtest.h>
@@ -30,17 +30,22 @@ constexpr double kOffset = 132;                        // of the blade's border 
 
 double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
 
-// BGR whose light, 0 to 255 linear, depends on the distance from the blade's border.
-cv::Mat Coloured(Gaussian& random, const std::function<Vector3d(double)>& light) {
+// BGR whose light, 0 to 255 linear, depends on the distance from the blade's border, and on the
+// place.
+cv::Mat Patterned(Gaussian& random, const std::function<Vector3d(double, const Vector2d&)>& light) {
   cv::Mat picture(kSide, kSide, CV_8UC3);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const Vector3d at = light(kNormal.dot(Vector2d(x, y)) - kOffset);
+      const Vector3d at = light(kNormal.dot(Vector2d(x, y)) - kOffset, {x, y});
       for (int c = 0; c < 3; ++c)
         picture.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(at[c] + kNoise * random());
     }
   }
   return picture;
+}
+
+cv::Mat Coloured(Gaussian& random, const std::function<Vector3d(double)>& light) {
+  return Patterned(random, [&](double d, const Vector2d&) { return light(d); });
 }
 
 EdgeGuess GuessOff(double px) {
@@ -129,6 +134,13 @@ LocatedEdge OutsideABand() {
   return edge;
 }
 
+DarkBand JudgeIn(const cv::Mat& bgr, double width_px) {
+  constexpr double kBladePx = 60;
+  LocatedEdge edge = OutsideABand();
+  edge.rival_px = -width_px;
+  return JudgeDarkBand(bgr, testing::GammaCurve(1), edge, kBladePx);
+}
+
 DarkBand Judge(const Vector3d& blade,
                const Vector3d& band,
                const Vector3d& ground,
@@ -137,10 +149,35 @@ DarkBand Judge(const Vector3d& blade,
   const cv::Mat bgr = Coloured(random, [&](double d) {
     return blade + Smooth(d + width_px) * (band - blade) + Smooth(d) * (ground - band);
   });
-  constexpr double kBladePx = 60;
-  LocatedEdge edge = OutsideABand();
-  edge.rival_px = -width_px;
-  return JudgeDarkBand(bgr, testing::GammaCurve(1), edge, kBladePx);
+  return JudgeIn(bgr, width_px);
+}
+
+// A grey ground's light, as a share of its usual light less one.
+using Pattern = std::function<double(const Vector2d&)>;
+
+double Stripes(const Vector2d& at) {
+  constexpr double kPeriodPx = 45, kAngle = 1.7;
+  const double across = Vector2d(std::cos(kAngle), std::sin(kAngle)).dot(at);
+  return 0.25 * std::sin(2 * std::numbers::pi * across / kPeriodPx);
+}
+
+// Of each 4 x 4 px by itself.
+double Grain(const Vector2d& at) {
+  constexpr int kPx = 4;
+  const int cell = static_cast<int>(at.y()) / kPx * kSide + static_cast<int>(at.x()) / kPx;
+  return 0.25 * std::sin(37.0 * cell * cell);
+}
+
+// Of a band half as bright as the ground, with a share of its pattern's contrast.
+DarkBand JudgeOn(const Pattern& pattern, double share) {
+  constexpr double kWidthPx = 9, kSteel = 40, kGround = 150, kBand = 75;
+  Gaussian random(5);
+  const cv::Mat bgr = Patterned(random, [&](double d, const Vector2d& at) -> Vector3d {
+    const double ground = kGround * (1 + pattern(at)), band = kBand * (1 + share * pattern(at));
+    return Vector3d::Constant(kSteel + Smooth(d + kWidthPx) * (band - kSteel) +
+                              Smooth(d) * (ground - band));
+  });
+  return JudgeIn(bgr, kWidthPx);
 }
 
 TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
@@ -177,6 +214,20 @@ TEST(JudgeDarkBand, IsSurerWhereColoursDifferMore) {
 TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
   const Vector3d steel(170, 168, 166), paper(220, 220, 216);
   EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
+}
+
+TEST(JudgeDarkBand, TellsShadowFromBevelByThePatternOfAGreyGround) {
+  EXPECT_EQ(JudgeOn(Stripes, 1), DarkBand::kShadow);
+  EXPECT_EQ(JudgeOn(Stripes, 0), DarkBand::kMetal);
+}
+
+TEST(JudgeDarkBand, LeavesOpenWhatMayMirrorThePattern) {
+  EXPECT_EQ(JudgeOn(Stripes, 0.5), DarkBand::kUnknown);
+}
+
+TEST(JudgeDarkBand, AsksNoPatternThatDoesNotGoOnAcrossTheBand) {
+  EXPECT_EQ(JudgeOn(Grain, 0), DarkBand::kUnknown);
+  EXPECT_EQ(JudgeOn(Grain, 1), DarkBand::kUnknown);
 }
 
 // Of the edge of OutsideABand, in light that depends on the distance from it.
