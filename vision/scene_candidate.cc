@@ -19,8 +19,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Median difference between `reach` px outside and inside of a path, in the units of the image.
-double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path, double reach) {
+constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp border's transition
+
+// Median difference between `reach` px on both sides of a path that is moved `aside` px to one
+// side, in the units of the image.
+double TransitionAcross(const cv::Mat& image,
+                        const std::vector<Vector2d>& path,
+                        double reach,
+                        double aside = 0) {
   std::vector<double> steps;
   const auto value = [&](const Vector2d& p, int c) {
     const int x = std::clamp(NearestPixel(p.x()), 0, image.cols - 1);
@@ -29,37 +35,50 @@ double TransitionAcross(const cv::Mat& image, const std::vector<Vector2d>& path,
   };
   for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
     const Vector2d along = (path[i + 3] - path[i - 3]).normalized();
-    const Vector2d across(reach * along.y(), -reach * along.x());
+    const Vector2d across(along.y(), -along.x());
+    const Vector2d here = path[i] + (aside + reach) * across;
+    const Vector2d there = path[i] + (aside - reach) * across;
     double squared = 0;
-    for (int c = 0; c < image.channels(); ++c) {
-      squared += std::pow(value(path[i] + across, c) - value(path[i] - across, c), 2);
-    }
+    for (int c = 0; c < image.channels(); ++c)
+      squared += std::pow(value(here, c) - value(there, c), 2);
     steps.push_back(std::sqrt(squared));
   }
   return steps.empty() ? 0 : Median(steps);
 }
 
+// Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
+constexpr double kSoft = 0.25, kSharp = 0.4;
+
+// How much of the transition across a contour is that of one sharp line. Beside a soft shadow, or
+// on texture, a blade's contour may run a little off its edge; a sharp line there counts for less,
+// as it may be another one.
+double SharpnessOf(const cv::Mat& image, const std::vector<Vector2d>& path, double near) {
+  constexpr double kSoftReach = 5;  // px of the small picture: most of a soft shadow's transition
+  constexpr double kMostAside = 4;
+  constexpr double kSharpBeside = 0.5,
+                   kCounts = 0.36;  // soft borders reach 0.36 beside the contour
+  const double far = std::max(1e-6, TransitionAcross(image, path, kSoftReach));
+  if (near > kCounts * far) return near / far;
+  for (double aside = -kMostAside; aside <= kMostAside; ++aside) {
+    if (TransitionAcross(image, path, kSharpReach, aside) > kSharpBeside * far) return kCounts;
+  }
+  return near / far;
+}
+
 // Fills in strength and sharpness. Of the two inner edges the weaker and the softer counts: a
 // shadow that passes for a blade has a soft border.
 void JudgeEdges(const BladePair& pair, Candidate* candidate) {
-  constexpr double kSharpReach =
-      1.5;                          // px of the small picture: all of a sharp border's transition
-  constexpr double kSoftReach = 5;  // most of a soft shadow's
   const cv::Mat& image = candidate->at->pixels;
   candidate->strength = std::numeric_limits<double>::infinity();
   candidate->sharpness = std::numeric_limits<double>::infinity();
   for (const BladeContour* blade : {&pair.first, &pair.second}) {
     const double near = TransitionAcross(image, blade->inner, kSharpReach);
-    const double far = TransitionAcross(image, blade->inner, kSoftReach);
     candidate->strength = std::min(candidate->strength, near);
-    candidate->sharpness = std::min(candidate->sharpness, near / std::max(1e-6, far));
+    candidate->sharpness = std::min(candidate->sharpness, SharpnessOf(image, blade->inner, near));
   }
 }
 
-// Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
 void DoubtSoftEdges(Candidate* candidate) {
-  constexpr double kSoft = 0.25;
-  constexpr double kSharp = 0.4;
   const double grade = std::clamp((candidate->sharpness - kSoft) / (kSharp - kSoft), 0.0, 1.0);
   candidate->pair.quality *= grade;
   if (grade >= candidate->pair.worst_grade) return;

@@ -237,6 +237,40 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   EXPECT_FALSE(sees_stubs()) << "the limbs go on";
 }
 
+// On texture, or beside a soft shadow, a threshold's contour may run beside a sharp edge; a soft
+// shadow has none near.
+TEST(SeenIn, LooksForTheSharpEdgeBesideTheContour) {
+  constexpr int kAsidePx = 3;
+  cv::Mat pair = cv::Mat::zeros(400, 700, CV_8UC1);
+  const cv::Point joint(300, 200);
+  for (const int sign : {-1, 1}) {
+    const std::vector<cv::Point> blade{
+        joint + cv::Point(300, sign * 90), joint + cv::Point(0, 26), joint + cv::Point(0, -26)};
+    cv::fillConvexPoly(pair, blade, 255);
+    cv::line(pair, joint, joint + cv::Point(-200, sign * 70), 255, 16);
+    cv::circle(pair, joint + cv::Point(-230, sign * 80), 36, 255, 12);
+  }
+  cv::Mat mask;
+  const int side = 2 * kAsidePx + 1;
+  cv::dilate(pair, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}));
+  const auto quality = [&](double blur_px) {
+    cv::Mat light;
+    cv::GaussianBlur(pair, light, {}, blur_px);
+    light.convertTo(light, CV_32FC1, 100.0 / 255);
+    const Window window{cv::Rect({}, mask.size()), mask.size()};
+    Candidate like;
+    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+    double best = 0;
+    for (const Candidate& c : SeenIn(mask, like, {}, {}).candidates)
+      best = std::max(best, c.pair.quality);
+    return best;
+  };
+  constexpr double kAccepted = 0.45, kPlain = 0.85;
+  EXPECT_GT(quality(0.5), kAccepted);
+  EXPECT_LT(quality(0.5), kPlain) << "it may be another line";
+  EXPECT_LT(quality(8), kAccepted);
+}
+
 TEST(FindScene, RefusesClosedScissorsByThatReason) {
   SceneSpec spec = SmallScene();
   spec.theta_rad = -8 * kDegree;  // the edges have passed each other
