@@ -92,8 +92,11 @@ bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& bla
          IsClear(blades.upper.edge) && IsClear(blades.lower.edge);
 }
 
-void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale) {
+void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
   if (!AreFarUnlikeAboutScrew(pivot, scale)) return;
+  // A pivot that lies aside adds to one distance and takes from the other.
+  const double by_pivot = 2 * pivot.SigmaPx() / BladeLength(pivot, blades);
+  if (!AreFarUnlike(std::max(0.0, std::abs(pivot.asymmetry) - by_pivot))) return;
   throw Refused(Reason::kLowContrast,
                 "edges: the two cutting edges are not each other's mirror images: they pass by the "
                 "pivot at distances that differ by " +

@@ -30,8 +30,9 @@ void Doubt(LocatedEdge* edge, double off_px);
 [[nodiscard]] bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);
 
 // Throws Refused{kLowContrast} where the edges, seen from a known side and about a pivot that is
-// seen, are no mirror images by far: one of them is something else's border.
-void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale);
+// seen, are no mirror images by far, and by more than the pivot's uncertainty accounts for: one of
+// them is something else's border.
+void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);
 
 // Throws Refused{kNotScissors} where one of the edges, continued, does not reach past a pivot that
 // is seen: those of blades that cut cross it on the other blade's side.

@@ -99,13 +99,17 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
   ScaleResult tilt_known, tilt_unknown;
   tilt_known.sheet.emplace();
+  const Blades blades = BladesWithRivals(0, 0);
   const Pivot unlike = PivotSeen(0.05);
-  EXPECT_THROW(RefuseUnlikeEdges(unlike, tilt_known), Refused);
-  EXPECT_NO_THROW(RefuseUnlikeEdges(unlike, tilt_unknown));
-  EXPECT_NO_THROW(RefuseUnlikeEdges(PivotSeen(0.01), tilt_known));
+  EXPECT_THROW(RefuseUnlikeEdges(unlike, tilt_known, blades), Refused);
+  EXPECT_NO_THROW(RefuseUnlikeEdges(unlike, tilt_unknown, blades));
+  EXPECT_NO_THROW(RefuseUnlikeEdges(PivotSeen(0.01), tilt_known, blades));
   Pivot given = unlike;
   given.source = "hint";
-  EXPECT_NO_THROW(RefuseUnlikeEdges(given, tilt_known));
+  EXPECT_NO_THROW(RefuseUnlikeEdges(given, tilt_known, blades));
+  Pivot vague = unlike;
+  vague.covariance_px2 *= 0.015 * kLength * 0.015 * kLength;
+  EXPECT_NO_THROW(RefuseUnlikeEdges(vague, tilt_known, blades));
 }
 
 TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
@@ -129,7 +133,7 @@ TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
   Pivot plain = faint;
   plain.screw->evidence = kFaintHead + 1;
   EXPECT_FALSE(IsFalseHead(plain, tilt_known, clear));
-  EXPECT_THROW(RefuseUnlikeEdges(plain, tilt_known), Refused);
+  EXPECT_THROW(RefuseUnlikeEdges(plain, tilt_known, clear), Refused);
   Pivot slotted = faint;
   slotted.screw->slot.emplace();
   EXPECT_FALSE(IsFalseHead(slotted, tilt_known, clear));
