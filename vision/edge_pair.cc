@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vision/blurred_step.h"
+#include "vision/cast_shadow.h"
 #include "vision/colour_border.h"
 #include "vision/consistency.h"
 #include "vision/cross.h"
@@ -58,6 +59,19 @@ EdgeGuess GuessFor(const Scene& scene, bool left) {
   guess.path_px = blade.inner_px;
   guess.blade_on_left = left;
   guess.search_px = std::max(kNearest, 1.5 * scene.path_sigma_px + kFarthest * blade.width_px);
+  return guess;
+}
+
+// Where the scene saw a blade's outer side, but for its ends, which bend.
+EdgeGuess OuterSideOf(const Scene& scene, bool left) {
+  constexpr double kFirst = 0.25, kLast = 0.85;  // of the side
+  EdgeGuess guess = GuessFor(scene, left);
+  const std::vector<Vector2d>& side = (left ? scene.left : scene.right).outer_px;
+  const auto at = [&](double share) {
+    return side.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(side.size()));
+  };
+  guess.path_px.assign(at(kFirst), at(kLast));
+  guess.blade_on_left = !left;
   return guess;
 }
 
@@ -245,6 +259,26 @@ class BladeLocator {
     *right = *r;
   }
 
+  // An edge along the border of a shadow that its blade casts is looked for where that begins. The
+  // other blade's outer side, which faces the same way, casts the same one.
+  void LeaveCastShadow(bool upper_on_left, BladeEdges* edges) const {
+    const auto margin = [&](const LocatedEdge& edge, bool left) {
+      const double width_px = (left ? scene_.left : scene_.right).width_px;
+      return FindDarkMargin(photo_.grey(), tone_, edge, width_px);
+    };
+    const auto of_upper = margin(edges->upper, upper_on_left);
+    const auto of_lower = margin(edges->lower, !upper_on_left);
+    if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
+    const bool left = of_upper ? upper_on_left : !upper_on_left;
+    const auto outer = UnlessRefused(
+        [&] { return LocateEdge(photo_.grey(), tone_, OuterSideOf(scene_, !left), options_); });
+    const auto of_outer = outer ? margin(*outer, !left) : std::nullopt;
+    const DarkMargin& shadow = of_upper ? *of_upper : *of_lower;
+    if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
+    LocatedEdge& edge = of_upper ? edges->upper : edges->lower;
+    edge = WhereShadowBegins(std::move(edge), shadow.width_px, left);
+  }
+
   // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
   // and bevels' lines too. In large photographs, whose colours take longer to decode than all else
   // takes, only where grey leaves a doubt, or shadows might pass for blades unseen.
@@ -374,6 +408,17 @@ class BladeLocator {
     return InShadow(guess).value_or(std::move(edge));
   }
 
+  // The edge `width_px` further in, if light falls there; doubted by as much all the same.
+  [[nodiscard]] LocatedEdge WhereShadowBegins(LocatedEdge edge, double width_px, bool left) const {
+    constexpr double kReach = 0.5, kLeast = 2;  // of the width, px
+    EdgeGuess guess{{}, left, std::max(kLeast, kReach * width_px)};
+    for (const LocatedEdgePoint& p : edge.points)
+      guess.path_px.push_back(p.trend_px - width_px * p.normal);
+    edge = InShadow(guess).value_or(std::move(edge));
+    Doubt(&edge, kReach * width_px);
+    return edge;
+  }
+
   // The edge once more along one side of the dark band beside it, if it is seen there.
   [[nodiscard]] std::optional<LocatedEdge> AlongSide(std::vector<Vector2d> side_px,
                                                      const LocatedEdge& edge,
@@ -441,6 +486,7 @@ BladeEdges LocateBlades(const Photo& photo,
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
   locator.SettleByColour(upper_on_left, &edges);
+  locator.LeaveCastShadow(upper_on_left, &edges);
   return edges;
 }
 

@@ -19,6 +19,7 @@ namespace bladecurve {
 // A blade where scene finding sees it; stored full-resolution pixels, a few off.
 struct SceneBlade {
   std::vector<Eigen::Vector2d> inner_px;  // from near the crotch to the tip: the cutting edge
+  std::vector<Eigen::Vector2d> outer_px;  // from beside the pivot to the tip, as the mask shows it
   Eigen::Vector2d tip_px;
   double width_px = 0;  // half way along
 };
