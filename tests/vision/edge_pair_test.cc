@@ -118,6 +118,31 @@ TEST(LocateBlades, TakesTheColoursOfLargePhotographsToo) {
   }
 }
 
+// Grey on grey, colours tell nothing. A shadow as dark as the blade's bevel might be its bevel, but
+// the other blade's outer side has none.
+TEST(LocateBlades, TakesNoShadowForBladeThatTheOtherBladesOuterSideCastsToo) {
+  constexpr double kClosePx = 0.3;
+  for (const double elevation_rad : {35 * kDegree, 42 * kDegree, 50 * kDegree}) {
+    SceneSpec spec;
+    spec.width = 2000;
+    spec.height = 1500;
+    spec.camera.mm_per_px = 0.134;
+    spec.theta_rad = 19 * kDegree;
+    spec.heading_rad = 33 * kDegree;
+    spec.edge_height_mm = 2.75;
+    spec.scissors.width_mm = 7.3;
+    spec.light.direction_rad = 170 * kDegree;
+    spec.light.elevation_rad = elevation_rad;
+    spec.light.shadow = 0.72;
+    spec.light.shadow_blur_mm = 0.16;
+    spec.light.glint = 1.1;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << elevation_rad;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << elevation_rad;
+  }
+}
+
 // As wide as the blur the shadow is no line of its own, and draws the edge to its border.
 TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
   constexpr double kClosePx = 0.3;

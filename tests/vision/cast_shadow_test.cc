@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+// Shadows that were taken for blade, and bevels, which are blade.
+#include "vision/cast_shadow.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "vision/edge_images.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kEdgeX = 100, kBladePx = 60;
+constexpr double kBlade = 120, kGround = 200, kDark = 50;  // grey values, linear
+
+double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
+
+// Light that depends on the distance from an upright edge, the ground on its right.
+std::optional<DarkMargin> MarginIn(const std::function<double(double)>& light) {
+  testing::Gaussian random(1);
+  cv::Mat grey(160, 200, CV_8UC1);
+  for (int y = 0; y < grey.rows; ++y) {
+    for (int x = 0; x < grey.cols; ++x)
+      grey.at<uchar>(y, x) = cv::saturate_cast<uchar>(light(x - kEdgeX) + random());
+  }
+  LocatedEdge edge;
+  for (int y = 10; y < 150; ++y) {
+    LocatedEdgePoint point;
+    point.point_px = point.trend_px = {kEdgeX, static_cast<double>(y)};
+    point.normal = {1, 0};
+    edge.points.push_back(point);
+  }
+  return FindDarkMargin(grey, testing::GammaCurve(1), edge, kBladePx);
+}
+
+double WithMargin(double d, double width_px) {
+  return kBlade + Smooth(d + width_px) * (kDark - kBlade) + Smooth(d) * (kGround - kDark);
+}
+
+TEST(FindDarkMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
+  for (const double width_px : {4, 9, 20}) {
+    const auto margin = MarginIn([&](double d) { return WithMargin(d, width_px); });
+    ASSERT_TRUE(margin) << width_px;
+    EXPECT_NEAR(margin->width_px, width_px, 1.5);
+    EXPECT_NEAR(margin->light, kDark / 255, 0.02);
+    EXPECT_NEAR(margin->ground, kGround / 255, 0.02);
+  }
+}
+
+TEST(FindDarkMargin, SeesNoneWhereThereIsNone) {
+  EXPECT_FALSE(MarginIn([](double d) { return kBlade + Smooth(d) * (kGround - kBlade); }));
+  EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
+  EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
+      << "a bright blade";
+}
+
+TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
+  const DarkMargin shadow{10, 0.2, 0.7};
+  EXPECT_TRUE(AreOneShadow(shadow, {7, 0.19, 0.72}));
+  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.15, 0.72}));
+  EXPECT_FALSE(AreOneShadow({10, 0.15, 0.7}, {7, 0.2, 0.72}));
+  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.19, 0.5}));
+  EXPECT_FALSE(AreOneShadow(shadow, {4, 0.2, 0.7}));
+  EXPECT_FALSE(AreOneShadow({4, 0.2, 0.7}, shadow));
+}
+
+}  // namespace
+}  // namespace bladecurve
