@@ -270,8 +270,10 @@ class BladeLocator {
     const auto of_lower = margin(edges->lower, !upper_on_left);
     if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
     const bool left = of_upper ? upper_on_left : !upper_on_left;
-    const auto outer = UnlessRefused(
-        [&] { return LocateEdge(photo_.grey(), tone_, OuterSideOf(scene_, !left), options_); });
+    const EdgeGuess side = OuterSideOf(scene_, !left);
+    if (side.path_px.size() < 2) return;
+    const auto outer =
+        UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
     const auto of_outer = outer ? margin(*outer, !left) : std::nullopt;
     const DarkMargin& shadow = of_upper ? *of_upper : *of_lower;
     if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
@@ -436,7 +438,8 @@ class BladeLocator {
   // background's colour, the outer one if it has the blade's.
   [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
     const SceneBlade& blade = left ? scene_.left : scene_.right;
-    const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px);
+    const SceneBlade& other = left ? scene_.right : scene_.left;
+    const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px);
     if (band == DarkBand::kUnknown) return edge;
     const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
     return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)

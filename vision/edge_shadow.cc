@@ -87,16 +87,28 @@ DarkBand JudgeByColour(const cv::Mat& bgr,
   return share > least_metal ? DarkBand::kMetal : DarkBand::kUnknown;
 }
 
-// How light changes along a strip: its logarithm at the edge's points, less a parabola, as light
-// falls off over ground and metal alike. Not near the crotch, where the other blade is close.
+// The first of the points from which on the other blade is further off than `reach_px`.
+std::size_t FirstClearOf(const std::vector<Vector2d>& other_px,
+                         const LocatedEdge& edge,
+                         double reach_px) {
+  const auto is_near = [&](const LocatedEdgePoint& point) {
+    return std::any_of(other_px.begin(), other_px.end(), [&](const Vector2d& p) {
+      return (p - point.trend_px).norm() < reach_px;
+    });
+  };
+  const auto last_near = std::find_if(edge.points.rbegin(), edge.points.rend(), is_near);
+  return static_cast<std::size_t>(edge.points.rend() - last_near);
+}
+
+// How light changes along a strip: its logarithm at the points from `first` on, less a parabola, as
+// light falls off over ground and metal alike.
 std::optional<VectorXd> PatternAlong(const cv::Mat& bgr,
                                      const ToneCurve& tone,
                                      const LocatedEdge& edge,
+                                     std::size_t first,
                                      const Strip& strip) {
-  constexpr double kFirst = 0.3;    // of the points
   constexpr double kBlack = 0.001;  // of white
   constexpr std::size_t kFewest = 40;
-  const auto first = static_cast<std::size_t>(kFirst * static_cast<double>(edge.points.size()));
   if (edge.points.size() < first + kFewest) return std::nullopt;
   VectorXd pattern(static_cast<Eigen::Index>(edge.points.size() - first));
   Eigen::MatrixX3d parabola(pattern.size(), 3);
@@ -138,15 +150,20 @@ Likeness Compare(const VectorXd& a, const VectorXd& b, Eigen::Index most_moved) 
 
 // A shadow leaves the ground's pattern as it is, only darker; metal has none of it. So tells a
 // ground whose pattern goes on for as far as from the band to it.
-DarkBand JudgeByPattern(const cv::Mat& bgr, const ToneCurve& tone, const LocatedEdge& edge) {
+DarkBand JudgeByPattern(const cv::Mat& bgr,
+                        const ToneCurve& tone,
+                        const LocatedEdge& edge,
+                        const std::vector<Vector2d>& other_px) {
+  constexpr double kLeastContrast = 0.02;  // of the ground, standard, as a share of its light
   constexpr double kGoesOn = 0.8, kFollows = 0.7;  // correlations
   // Of the slope of ground on farther ground. Stray light lowers it in shadows, to 0.23 in the sun;
   // mirrors reach 0.7.
   constexpr double kAsMuch = 0.8, kHardly = 0.12;
   const Strips strips(edge.rival_px);
-  const auto band = PatternAlong(bgr, tone, edge, strips.Band());
-  const auto ground = PatternAlong(bgr, tone, edge, strips.Ground());
-  const auto farther = PatternAlong(bgr, tone, edge, strips.FartherGround());
+  const std::size_t first = FirstClearOf(other_px, edge, strips.FartherGround().to + kBlur);
+  const auto band = PatternAlong(bgr, tone, edge, first, strips.Band());
+  const auto ground = PatternAlong(bgr, tone, edge, first, strips.Ground());
+  const auto farther = PatternAlong(bgr, tone, edge, first, strips.FartherGround());
   if (!band || !ground || !farther) return DarkBand::kUnknown;
   const double spacing_px = (edge.points.back().trend_px - edge.points.front().trend_px).norm() /
                             static_cast<double>(edge.points.size());
@@ -154,7 +171,8 @@ DarkBand JudgeByPattern(const cv::Mat& bgr, const ToneCurve& tone, const Located
       std::min(static_cast<Eigen::Index>(2 * strips.Width() / spacing_px), ground->size() / 2);
   const Likeness goes_on = Compare(*farther, *ground, most_moved);
   const Likeness follows = Compare(*ground, *band, most_moved);
-  if (!(goes_on.correlation > kGoesOn)) return DarkBand::kUnknown;
+  const double contrast = ground->norm() / std::sqrt(static_cast<double>(ground->size()));
+  if (contrast < kLeastContrast || goes_on.correlation < kGoesOn) return DarkBand::kUnknown;
   if (follows.correlation > kFollows && follows.slope > kAsMuch * goes_on.slope)
     return DarkBand::kShadow;
   return follows.slope < kHardly * goes_on.slope ? DarkBand::kMetal : DarkBand::kUnknown;
@@ -165,9 +183,10 @@ DarkBand JudgeByPattern(const cv::Mat& bgr, const ToneCurve& tone, const Located
 DarkBand JudgeDarkBand(const cv::Mat& bgr,
                        const ToneCurve& tone,
                        const LocatedEdge& edge,
-                       double blade_px) {
+                       double blade_px,
+                       const std::vector<Vector2d>& other_px) {
   const DarkBand by_colour = JudgeByColour(bgr, tone, edge, blade_px);
-  return by_colour == DarkBand::kUnknown ? JudgeByPattern(bgr, tone, edge) : by_colour;
+  return by_colour == DarkBand::kUnknown ? JudgeByPattern(bgr, tone, edge, other_px) : by_colour;
 }
 
 }  // namespace bladecurve

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "vision/edge.h"
 #include "vision/tone_curve.h"
@@ -18,10 +20,12 @@ enum class DarkBand {
 
 // Judges the band between a located edge and its rival: by colour; where blade and background are
 // alike in that, by whether the background's pattern goes on in it. bgr: CV_8UC3, the whole
-// photograph at full resolution; blade_px: how wide the blade is.
+// photograph at full resolution; blade_px: how wide the blade is; other_px: where the other blade's
+// edge runs, beyond which there is no background.
 [[nodiscard]] DarkBand JudgeDarkBand(const cv::Mat& bgr,
                                      const ToneCurve& tone,
                                      const LocatedEdge& edge,
-                                     double blade_px);
+                                     double blade_px,
+                                     const std::vector<Eigen::Vector2d>& other_px);
 
 }  // namespace bladecurve

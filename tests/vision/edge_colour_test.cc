@@ -134,11 +134,11 @@ LocatedEdge OutsideABand() {
   return edge;
 }
 
-DarkBand JudgeIn(const cv::Mat& bgr, double width_px) {
+DarkBand JudgeIn(const cv::Mat& bgr, double width_px, const std::vector<Vector2d>& other_px = {}) {
   constexpr double kBladePx = 60;
   LocatedEdge edge = OutsideABand();
   edge.rival_px = -width_px;
-  return JudgeDarkBand(bgr, testing::GammaCurve(1), edge, kBladePx);
+  return JudgeDarkBand(bgr, testing::GammaCurve(1), edge, kBladePx, other_px);
 }
 
 DarkBand Judge(const Vector3d& blade,
@@ -169,7 +169,7 @@ double Grain(const Vector2d& at) {
 }
 
 // Of a band half as bright as the ground, with a share of its pattern's contrast.
-DarkBand JudgeOn(const Pattern& pattern, double share) {
+DarkBand JudgeOn(const Pattern& pattern, double share, const std::vector<Vector2d>& other_px = {}) {
   constexpr double kWidthPx = 9, kSteel = 40, kGround = 150, kBand = 75;
   Gaussian random(5);
   const cv::Mat bgr = Patterned(random, [&](double d, const Vector2d& at) -> Vector3d {
@@ -177,7 +177,7 @@ DarkBand JudgeOn(const Pattern& pattern, double share) {
     return Vector3d::Constant(kSteel + Smooth(d + kWidthPx) * (band - kSteel) +
                               Smooth(d) * (ground - band));
   });
-  return JudgeIn(bgr, kWidthPx);
+  return JudgeIn(bgr, kWidthPx, other_px);
 }
 
 TEST(JudgeDarkBand, TellsShadowFromBevelByColour) {
@@ -219,6 +219,14 @@ TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
 TEST(JudgeDarkBand, TellsShadowFromBevelByThePatternOfAGreyGround) {
   EXPECT_EQ(JudgeOn(Stripes, 1), DarkBand::kShadow);
   EXPECT_EQ(JudgeOn(Stripes, 0), DarkBand::kMetal);
+}
+
+TEST(JudgeDarkBand, AsksNoPatternWhereTheOtherBladeIsNear) {
+  constexpr double kGapPx = 15;
+  std::vector<Vector2d> other_px;
+  for (const LocatedEdgePoint& p : OutsideABand().points)
+    other_px.emplace_back(p.trend_px + kGapPx * kNormal);
+  EXPECT_EQ(JudgeOn(Stripes, 0, other_px), DarkBand::kUnknown);
 }
 
 TEST(JudgeDarkBand, LeavesOpenWhatMayMirrorThePattern) {

@@ -105,7 +105,8 @@ inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
   }));
 }
 
-// A rendered photograph up to where the edges are compared.
+// A rendered photograph up to where the edges are compared. The blades' outer sides, which tell
+// cast shadows, stay unseen: an edge may lie at a shadow's border.
 struct Measured {
   explicit Measured(const SceneSpec& spec)
       : truth(TruthOf(spec)),
@@ -113,6 +114,7 @@ struct Measured {
         scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = FindScene(photo, scale.markers, {}, &log);
+    for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();
     BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
     blades = {
         {kUpperOnLeft, edges.upper, {}, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}, {}}, false};
