@@ -122,6 +122,12 @@ void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   const bool mirrored = std::abs(pivot.asymmetry) < kMost;
   const bool doubtful = scene.IsDoubtful() || (!seen && scene.quality < kPlain);
   if (!doubtful || (seen && (mirrored || !scene.outlined))) return;
+  if (!scene.IsDoubtful()) {
+    throw Refused(Reason::kAmbiguousPivot,
+                  "pivot: no screw is seen, and the outline alone, as where the rings are out of the "
+                  "picture, does not tell for certain that these are scissors; show the rings as "
+                  "well, light the screw, or say where it is: --pivot X,Y");
+  }
   throw Refused(Reason::kLowContrast,
                 "edges: shadows or a ground as bright as the blades leave " +
                     std::string(scene.outlined ? "nothing but lines to tell them by"

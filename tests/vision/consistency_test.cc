@@ -87,9 +87,17 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
   EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, inferred));
   Scene fair = plain;
   fair.quality = 0.8;
-  EXPECT_THROW(RefuseUnconfirmedScene(fair, inferred), Refused);
+  const auto reason = [&](const Scene& scene) {
+    try {
+      RefuseUnconfirmedScene(scene, inferred);
+    } catch (const Refused& refused) {
+      return refused.reason();
+    }
+    return Reason::kFitFailed;  // stands for none
+  };
+  EXPECT_EQ(reason(fair), Reason::kAmbiguousPivot);
   EXPECT_NO_THROW(RefuseUnconfirmedScene(fair, PivotSeen(-0.1)));
-  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, inferred), Refused);
+  EXPECT_EQ(reason(doubtful), Reason::kLowContrast);
   EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, PivotSeen(-0.1)));
   EXPECT_THROW(RefuseUnconfirmedScene(outlined, inferred), Refused);
   EXPECT_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(-0.1)), Refused);
