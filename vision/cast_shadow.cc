@@ -18,8 +18,8 @@ double TypicalLight(const cv::Mat& grey,
                     const ToneCurve& tone,
                     const LocatedEdge& edge,
                     double across_px) {
-  constexpr double kFirst = 0.15;       // of the points
-  constexpr std::size_t kEnough = 100;  // places along the edge
+  constexpr double kFirst = 0.15;      // of the points
+  constexpr std::size_t kEnough = 60;  // places along the edge
   const std::size_t count = edge.points.size(), stride = 1 + count / kEnough;
   std::vector<double> light;
   for (auto i = static_cast<std::size_t>(kFirst * static_cast<double>(count)); i < count;
@@ -45,6 +45,7 @@ std::optional<DarkMargin> FindDarkMargin(const cv::Mat& grey,
   constexpr double kDarker = 1.5;                // times lighter is the ground,
   constexpr double kRises = 1.2, kPlate = 1.25;  // light where the margin ends, and behind
   constexpr double kBehindPx = 6;
+  constexpr double kStep = 0.1;  // of the width
   const auto light_at = [&](double across) { return TypicalLight(grey, tone, edge, across); };
   std::vector<double> ground;
   for (double across = kGroundPx; across <= kGroundEndPx; ++across)
@@ -56,7 +57,7 @@ std::optional<DarkMargin> FindDarkMargin(const cv::Mat& grey,
   const double widest = std::max(kWidest * blade_px, kDarkestPx + kBehindPx);
   margin.width_px = kNearestPx;
   while (margin.width_px < widest && light_at(-margin.width_px) < kRises * margin.light)
-    ++margin.width_px;
+    margin.width_px += std::max(1.0, kStep * margin.width_px);
   for (double behind = 0; behind <= kBehindPx; ++behind) {
     const bool in_reach = margin.width_px + behind <= widest;
     if (in_reach && light_at(-margin.width_px - behind) > kPlate * margin.light) return margin;
