@@ -66,9 +66,9 @@ std::optional<DarkMargin> FindDarkMargin(const cv::Mat& grey,
 }
 
 bool AreOneShadow(const DarkMargin& a, const DarkMargin& b) {
-  constexpr double kSameLight = 1.2, kSameWidth = 2;
+  constexpr double kSameLight = 1.12, kSameGround = 1.06, kSameWidth = 2;
   return WithinFactor(a.light, b.light, kSameLight) &&
-         WithinFactor(a.ground, b.ground, kSameLight) &&
+         WithinFactor(a.ground, b.ground, kSameGround) &&
          WithinFactor(a.width_px, b.width_px, kSameWidth);
 }
 

@@ -410,8 +410,8 @@ class BladeLocator {
     return InShadow(guess).value_or(std::move(edge));
   }
 
-  // The edge `width_px` further in, if light falls there, as it does not where the margin is but
-  // shading; doubted by as much all the same.
+  // The edge `width_px` further in, if light clearly falls there, as it does not where the margin is
+  // but shading; doubted by as much all the same.
   [[nodiscard]] LocatedEdge WhereShadowBegins(LocatedEdge edge, double width_px, bool left) const {
     constexpr double kReach = 0.2, kLeast = 3;  // of the width, px; bevels end further in
     constexpr double kDoubt = 0.5;              // of the width
@@ -419,7 +419,7 @@ class BladeLocator {
     for (const LocatedEdgePoint& p : edge.points)
       guess.path_px.push_back(p.trend_px - width_px * p.normal);
     std::optional<LocatedEdge> begins = InShadow(guess);
-    if (!begins) return edge;
+    if (!begins || begins->ambiguity > kAsGood) return edge;
     Doubt(&*begins, kDoubt * width_px);
     return *std::move(begins);
   }

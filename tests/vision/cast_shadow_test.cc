@@ -61,9 +61,9 @@ TEST(FindDarkMargin, SeesNoneWhereThereIsNone) {
 TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
   const DarkMargin shadow{10, 0.2, 0.7};
   EXPECT_TRUE(AreOneShadow(shadow, {7, 0.19, 0.72}));
-  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.15, 0.72}));
-  EXPECT_FALSE(AreOneShadow({10, 0.15, 0.7}, {7, 0.2, 0.72}));
-  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.19, 0.5}));
+  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.17, 0.72}));
+  EXPECT_FALSE(AreOneShadow({10, 0.17, 0.7}, {7, 0.2, 0.72}));
+  EXPECT_FALSE(AreOneShadow(shadow, {7, 0.19, 0.64}));
   EXPECT_FALSE(AreOneShadow(shadow, {4, 0.2, 0.7}));
   EXPECT_FALSE(AreOneShadow({4, 0.2, 0.7}, shadow));
 }
