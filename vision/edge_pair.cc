@@ -410,8 +410,8 @@ class BladeLocator {
     return InShadow(guess).value_or(std::move(edge));
   }
 
-  // The edge `width_px` further in, if light clearly falls there, as it does not where the margin is
-  // but shading; doubted by as much all the same.
+  // The edge `width_px` further in, if light clearly falls there, as it does not where the margin
+  // is but shading; doubted by as much all the same.
   [[nodiscard]] LocatedEdge WhereShadowBegins(LocatedEdge edge, double width_px, bool left) const {
     constexpr double kReach = 0.2, kLeast = 3;  // of the width, px; bevels end further in
     constexpr double kDoubt = 0.5;              // of the width
