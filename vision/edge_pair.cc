@@ -434,12 +434,14 @@ class BladeLocator {
     return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, guess, options_); });
   }
 
-  // Of the two sides of a dark band, the inner one is the blade's border if the band has the
-  // background's colour, the outer one if it has the blade's.
+  // Of the two sides of a dark band, the inner one is the blade's border if the band is the
+  // background in shadow, the outer one if it is metal. Faint bands are not worth the colours.
   [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
     const SceneBlade& blade = left ? scene_.left : scene_.right;
     const SceneBlade& other = left ? scene_.right : scene_.left;
-    const DarkBand band = JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px);
+    const DarkBand band =
+        HasDarkBand(edge) ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
+                          : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
     if (band == DarkBand::kUnknown) return edge;
     const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
     return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)

@@ -91,13 +91,22 @@ DarkBand JudgeByColour(const cv::Mat& bgr,
 std::size_t FirstClearOf(const std::vector<Vector2d>& other_px,
                          const LocatedEdge& edge,
                          double reach_px) {
+  constexpr std::size_t kEnough = 50;  // places along the other edge
+  const std::size_t stride = 1 + other_px.size() / kEnough;
   const auto is_near = [&](const LocatedEdgePoint& point) {
-    return std::any_of(other_px.begin(), other_px.end(), [&](const Vector2d& p) {
-      return (p - point.trend_px).norm() < reach_px;
-    });
+    for (std::size_t i = 0; i < other_px.size(); i += stride) {
+      if ((other_px[i] - point.trend_px).norm() < reach_px) return true;
+    }
+    return false;
   };
   const auto last_near = std::find_if(edge.points.rbegin(), edge.points.rend(), is_near);
   return static_cast<std::size_t>(edge.points.rend() - last_near);
+}
+
+// Of the points along an edge that tell a pattern.
+std::size_t StrideOf(const LocatedEdge& edge) {
+  constexpr std::size_t kEnough = 400;
+  return 1 + edge.points.size() / kEnough;
 }
 
 // How light changes along a strip: its logarithm at the points from `first` on, less a parabola, as
@@ -109,13 +118,16 @@ std::optional<VectorXd> PatternAlong(const cv::Mat& bgr,
                                      const Strip& strip) {
   constexpr double kBlack = 0.001;  // of white
   constexpr std::size_t kFewest = 40;
+  constexpr double kAcross = 8;  // places across a wide strip
   if (edge.points.size() < first + kFewest) return std::nullopt;
-  VectorXd pattern(static_cast<Eigen::Index>(edge.points.size() - first));
+  const std::size_t stride = StrideOf(edge);
+  const double step = std::max(1.0, (strip.to - strip.from) / kAcross);
+  VectorXd pattern(static_cast<Eigen::Index>((edge.points.size() - first + stride - 1) / stride));
   Eigen::MatrixX3d parabola(pattern.size(), 3);
   for (Eigen::Index i = 0; i < pattern.size(); ++i) {
-    const LocatedEdgePoint& point = edge.points[first + static_cast<std::size_t>(i)];
+    const LocatedEdgePoint& point = edge.points[first + stride * static_cast<std::size_t>(i)];
     double sum = 0, count = 0;
-    for (double across = strip.from; across <= strip.to; ++across) {
+    for (double across = strip.from; across <= strip.to; across += step) {
       const auto light = LightAt(bgr, tone, point.trend_px + across * point.normal);
       if (!light) return std::nullopt;
       sum += light->mean();
@@ -148,9 +160,9 @@ Likeness Compare(const VectorXd& a, const VectorXd& b, Eigen::Index most_moved) 
   return best;
 }
 
-// A shadow leaves the ground's pattern as it is, only darker; metal has none of it. So tells a
-// ground whose pattern goes on for as far as from the band to it.
-DarkBand JudgeByPattern(const cv::Mat& bgr,
+}  // namespace
+
+DarkBand JudgeByPattern(const cv::Mat& picture,
                         const ToneCurve& tone,
                         const LocatedEdge& edge,
                         const std::vector<Vector2d>& other_px) {
@@ -161,12 +173,13 @@ DarkBand JudgeByPattern(const cv::Mat& bgr,
   constexpr double kAsMuch = 0.8, kHardly = 0.12;
   const Strips strips(edge.rival_px);
   const std::size_t first = FirstClearOf(other_px, edge, strips.FartherGround().to + kBlur);
-  const auto band = PatternAlong(bgr, tone, edge, first, strips.Band());
-  const auto ground = PatternAlong(bgr, tone, edge, first, strips.Ground());
-  const auto farther = PatternAlong(bgr, tone, edge, first, strips.FartherGround());
+  const auto band = PatternAlong(picture, tone, edge, first, strips.Band());
+  const auto ground = PatternAlong(picture, tone, edge, first, strips.Ground());
+  const auto farther = PatternAlong(picture, tone, edge, first, strips.FartherGround());
   if (!band || !ground || !farther) return DarkBand::kUnknown;
   const double spacing_px = (edge.points.back().trend_px - edge.points.front().trend_px).norm() /
-                            static_cast<double>(edge.points.size());
+                            static_cast<double>(edge.points.size()) *
+                            static_cast<double>(StrideOf(edge));
   const auto most_moved =
       std::min(static_cast<Eigen::Index>(2 * strips.Width() / spacing_px), ground->size() / 2);
   const Likeness goes_on = Compare(*farther, *ground, most_moved);
@@ -177,8 +190,6 @@ DarkBand JudgeByPattern(const cv::Mat& bgr,
     return DarkBand::kShadow;
   return follows.slope < kHardly * goes_on.slope ? DarkBand::kMetal : DarkBand::kUnknown;
 }
-
-}  // namespace
 
 DarkBand JudgeDarkBand(const cv::Mat& bgr,
                        const ToneCurve& tone,

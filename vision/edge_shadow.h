@@ -28,4 +28,11 @@ enum class DarkBand {
                                      double blade_px,
                                      const std::vector<Eigen::Vector2d>& other_px);
 
+// By the pattern alone: a shadow leaves it as it is, only darker; metal has none of it. So tells a
+// background whose pattern goes on for as far as from the band to it. picture: CV_8UC3 or CV_8UC1.
+[[nodiscard]] DarkBand JudgeByPattern(const cv::Mat& picture,
+                                      const ToneCurve& tone,
+                                      const LocatedEdge& edge,
+                                      const std::vector<Eigen::Vector2d>& other_px);
+
 }  // namespace bladecurve
