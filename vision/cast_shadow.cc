@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include "vision/pixel_light.h"
@@ -31,43 +32,80 @@ double TypicalLight(const cv::Mat& grey,
   return light.empty() ? 0 : Median(std::move(light));
 }
 
-bool WithinFactor(double a, double b, double factor) { return a < factor * b && b < factor * a; }
+constexpr double kNearestPx = 2;  // from the edge, whose blur ends there
+constexpr double kDarker = 1.5;   // times lighter is the ground than a margin
 
-}  // namespace
+using Across = std::function<double(double)>;  // light at a distance from an edge
 
-std::optional<DarkMargin> FindDarkMargin(const cv::Mat& grey,
-                                         const ToneCurve& tone,
-                                         const LocatedEdge& edge,
-                                         double blade_px) {
-  constexpr double kNearestPx = 2, kDarkestPx = 4;  // from the edge, whose blur ends there
-  constexpr double kGroundPx = 4, kGroundEndPx = 10;
-  constexpr double kWidest = 0.5;                // of the blade
-  constexpr double kDarker = 1.5;                // times lighter is the ground,
+std::optional<Margin> DarkMargin(const Across& light_at, double ground, double widest_px) {
+  constexpr double kDarkestPx = 4;
   constexpr double kRises = 1.2, kPlate = 1.25;  // light where the margin ends, and behind
   constexpr double kBehindPx = 6;
   constexpr double kStep = 0.1;  // of the width
-  const auto light_at = [&](double across) { return TypicalLight(grey, tone, edge, across); };
-  std::vector<double> ground;
-  for (double across = kGroundPx; across <= kGroundEndPx; ++across)
-    ground.push_back(light_at(across));
-  DarkMargin margin{0, light_at(-kNearestPx), Median(std::move(ground))};
-  for (double across = kNearestPx + 1; across <= kDarkestPx; ++across)
-    margin.light = std::min(margin.light, light_at(-across));
-  if (margin.light <= 0 || margin.ground < kDarker * margin.light) return std::nullopt;
-  const double widest = std::max(kWidest * blade_px, kDarkestPx + kBehindPx);
-  margin.width_px = kNearestPx;
-  while (margin.width_px < widest && light_at(-margin.width_px) < kRises * margin.light)
+  Margin margin{kNearestPx, light_at(-kNearestPx), ground};
+  for (double across = kNearestPx + 1; across <= kDarkestPx; ++across) {
+    const double light = light_at(-across);
+    if (light < margin.light) margin = {across, light, ground};
+  }
+  if (margin.light <= 0 || ground < kDarker * margin.light) return std::nullopt;
+  while (margin.width_px < widest_px && light_at(-margin.width_px) < kRises * margin.light)
     margin.width_px += std::max(1.0, kStep * margin.width_px);
   for (double behind = 0; behind <= kBehindPx; ++behind) {
-    const bool in_reach = margin.width_px + behind <= widest;
+    const bool in_reach = margin.width_px + behind <= widest_px;
     if (in_reach && light_at(-margin.width_px - behind) > kPlate * margin.light) return margin;
   }
   return std::nullopt;
 }
 
-bool AreOneShadow(const DarkMargin& a, const DarkMargin& b) {
+// It ends half way from its light to the blade's, and within a blur's width.
+std::optional<Margin> BrightMargin(const Across& light_at,
+                                   double ground,
+                                   double widest_px,
+                                   const LocatedEdge& edge) {
+  constexpr double kBlurs = 3, kUsualBlurPx = 0.8;  // sigmas: where the ground's light ends
+  constexpr double kBrighter = 1.5;                 // than the blade
+  constexpr double kHalf = 0.5, kEnds = 0.75;       // of the way to the blade's light
+  const double foot = std::max(kNearestPx, kBlurs * BlurOr(edge, kUsualBlurPx));
+  std::vector<double> light;
+  for (double across = foot; across <= widest_px; ++across) light.push_back(light_at(-across));
+  if (light.empty()) return std::nullopt;
+  const double plate = *std::min_element(light.begin(), light.end());
+  const double shoulder = light.front();
+  if (plate <= 0 || shoulder < kBrighter * plate || ground < kDarker * shoulder)
+    return std::nullopt;
+  const auto falls_at = [&](double share) {  // px from the foot
+    const double level = shoulder + share * (plate - shoulder);
+    const auto fallen = [&](double l) { return l <= level; };
+    return static_cast<double>(std::find_if(light.begin(), light.end(), fallen) - light.begin());
+  };
+  if (falls_at(kEnds) - falls_at(kHalf) > foot) return std::nullopt;
+  return Margin{foot + falls_at(kHalf), shoulder, ground, Shadow::kBrighter};
+}
+
+bool WithinFactor(double a, double b, double factor) { return a < factor * b && b < factor * a; }
+
+}  // namespace
+
+std::optional<Margin> FindMargin(const cv::Mat& grey,
+                                 const ToneCurve& tone,
+                                 const LocatedEdge& edge,
+                                 double blade_px) {
+  constexpr double kWidest = 0.5;        // of the blade,
+  constexpr double kLeastWidestPx = 10;  // but no less
+  constexpr double kGroundPx = 4, kGroundEndPx = 10;
+  const Across light_at = [&](double across) { return TypicalLight(grey, tone, edge, across); };
+  std::vector<double> ground;
+  for (double across = kGroundPx; across <= kGroundEndPx; ++across)
+    ground.push_back(light_at(across));
+  const double ground_light = Median(std::move(ground));
+  const double widest = std::max(kWidest * blade_px, kLeastWidestPx);
+  std::optional<Margin> margin = DarkMargin(light_at, ground_light, widest);
+  return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
+}
+
+bool AreOneShadow(const Margin& a, const Margin& b) {
   constexpr double kSameLight = 1.12, kSameGround = 1.06, kSameWidth = 2;
-  return WithinFactor(a.light, b.light, kSameLight) &&
+  return a.than_blade == b.than_blade && WithinFactor(a.light, b.light, kSameLight) &&
          WithinFactor(a.ground, b.ground, kSameGround) &&
          WithinFactor(a.width_px, b.width_px, kSameWidth);
 }

@@ -196,14 +196,15 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
 LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const EdgeGuess& guess,
+                               Shadow shadow,
                                const EdgeOptions& options) {
   const EdgePath rough = RoughPath(grey, guess, options);
-  const ChosenTransition fall = ChooseFall(grey, rough, guess.search_px);
+  const ChosenTransition start = ChooseShadow(grey, rough, guess.search_px, shadow);
   const Picture picture{grey, tone, options};
   // A shadow that ends softly is a slope beside the blade, one that ends sharply another step.
   const auto sharp =
-      UnlessRefused([&] { return FitFromTheShadow(fall, guess.blade_on_left, picture); });
-  const auto fit_soft = [&] { return FitAlong(fall, guess.blade_on_left, picture); };
+      UnlessRefused([&] { return FitFromTheShadow(start, guess.blade_on_left, picture); });
+  const auto fit_soft = [&] { return FitAlong(start, guess.blade_on_left, picture); };
   if (!sharp) return fit_soft();
   const auto soft = UnlessRefused(fit_soft);
   return soft && TotalSigma(*soft) < TotalSigma(*sharp) ? *soft : *sharp;

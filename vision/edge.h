@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "vision/edge_path.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -86,10 +87,11 @@ struct LocatedEdge {
                                      const EdgeOptions& options = {});
 
 // The same where a shadow begins at the blade's border, so that light falls there, going outwards,
-// and rises again at the shadow's border, sharply or slowly: along the clearest fall of light.
+// or rises by less than at the shadow's border, sharply or slowly: along the clearest such step.
 [[nodiscard]] LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
                                              const ToneCurve& tone,
                                              const EdgeGuess& guess,
+                                             Shadow shadow,
                                              const EdgeOptions& options = {});
 
 }  // namespace bladecurve

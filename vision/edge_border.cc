@@ -284,17 +284,22 @@ bool FallsDeeper(const StepMap& map, int station, int row, double line_height) {
   return *height < -kFar * std::abs(line_height) && *height <= height[-1] && *height <= height[1];
 }
 
-SurveyedBorder FindFall(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+SurveyedBorder FindShadow(const cv::Mat& grey,
+                          const EdgePath& guess,
+                          double search_px,
+                          Shadow shadow) {
   constexpr double kSigmas =
-      3;  // texture of normal distribution falls by as much once in 800 places
+      3;  // texture of normal distribution steps by as much once in 800 places
   SurveyedBorder border{SurveyGuess(grey, guess, search_px), {}};
   const StepMap& map = border.survey.map;
   const double clear = kSigmas * BladeResponse(border.survey, search_px);
+  const float sign = shadow == Shadow::kDarker ? -1.0F : 1.0F;
   const auto score = [&](int station, int row) {
     if (std::abs(border.survey.FromGuess(station, row)) > search_px) return kForbidden;
     const float* height = &map.height[map.At(station, row)];
-    const bool deepest = *height < 0 && *height <= height[-1] && *height <= height[1];
-    return deepest ? static_cast<float>(1 - std::exp2(-std::pow(*height / clear, 2))) : 0.0F;
+    const auto step = [&](int next) { return sign * height[next]; };
+    const bool highest = step(0) > 0 && step(0) >= step(-1) && step(0) >= step(1);
+    return highest ? static_cast<float>(1 - std::exp2(-std::pow(*height / clear, 2))) : 0.0F;
   };
   border.line = FindBestLine(map, Scores(border.survey, score), kStiffBend);
   return border;

@@ -22,9 +22,12 @@ struct SurveyedBorder {
                                         const EdgePath& guess,
                                         double search_px);
 
-// The line along which light falls most clearly, going outwards; its score is the share of it that
-// is seen.
-[[nodiscard]] SurveyedBorder FindFall(const cv::Mat& grey, const EdgePath& guess, double search_px);
+// The line along which light changes most clearly from the blade's to the shadow's; its score is
+// the share of it that is seen.
+[[nodiscard]] SurveyedBorder FindShadow(const cv::Mat& grey,
+                                        const EdgePath& guess,
+                                        double search_px,
+                                        Shadow shadow);
 
 inline constexpr float kStiffBend =
     0.5F;  // once straightened, it takes two clear stations to leave a line

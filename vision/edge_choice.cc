@@ -125,8 +125,11 @@ ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, do
   return chosen;
 }
 
-ChosenTransition ChooseFall(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  const auto [survey, line] = FindFall(grey, guess, search_px);
+ChosenTransition ChooseShadow(const cv::Mat& grey,
+                              const EdgePath& guess,
+                              double search_px,
+                              Shadow shadow) {
+  const auto [survey, line] = FindShadow(grey, guess, search_px, shadow);
   ChosenTransition chosen;
   chosen.blur_px = survey.map.blur_px;
   chosen.support = std::clamp(line.score, 0.0, 1.0);

@@ -31,10 +31,11 @@ inline constexpr double kNoTransition = 1e3;
                                                 const EdgePath& guess,
                                                 double search_px);
 
-// Where a shadow begins at the blade's border: the transition at which light falls most clearly,
-// going outwards. It has no rival.
-[[nodiscard]] ChosenTransition ChooseFall(const cv::Mat& grey,
-                                          const EdgePath& guess,
-                                          double search_px);
+// Where a shadow begins at the blade's border: the transition at which light changes most clearly.
+// It has no rival.
+[[nodiscard]] ChosenTransition ChooseShadow(const cv::Mat& grey,
+                                            const EdgePath& guess,
+                                            double search_px,
+                                            Shadow shadow);
 
 }  // namespace bladecurve

@@ -194,10 +194,12 @@ class BladeLocator {
   }
 
   // The edge along `guess` as the place where a shadow begins, if it is seen.
-  [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess) const {
-    std::optional<LocatedEdge> edge =
-        UnlessRefused([&] { return LocateEdgeInShadow(photo_.grey(), tone_, guess, options_); });
-    return edge && TypicalContrast(*edge) < 0 ? std::move(edge) : std::nullopt;
+  [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess,
+                                                    Shadow shadow = Shadow::kDarker) const {
+    std::optional<LocatedEdge> edge = UnlessRefused(
+        [&] { return LocateEdgeInShadow(photo_.grey(), tone_, guess, shadow, options_); });
+    const bool is_such = edge && (TypicalContrast(*edge) < 0) == (shadow == Shadow::kDarker);
+    return is_such ? std::move(edge) : std::nullopt;
   }
 
   [[nodiscard]] LocatedEdge Locate(bool left) {
@@ -264,7 +266,7 @@ class BladeLocator {
   void LeaveCastShadow(bool upper_on_left, BladeEdges* edges) const {
     const auto margin = [&](const LocatedEdge& edge, bool left) {
       const double width_px = (left ? scene_.left : scene_.right).width_px;
-      return FindDarkMargin(photo_.grey(), tone_, edge, width_px);
+      return FindMargin(photo_.grey(), tone_, edge, width_px);
     };
     const auto of_upper = margin(edges->upper, upper_on_left);
     const auto of_lower = margin(edges->lower, !upper_on_left);
@@ -275,10 +277,10 @@ class BladeLocator {
     const auto outer =
         UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
     const auto of_outer = outer ? margin(*outer, !left) : std::nullopt;
-    const DarkMargin& shadow = of_upper ? *of_upper : *of_lower;
+    const Margin& shadow = of_upper ? *of_upper : *of_lower;
     if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
     LocatedEdge& edge = of_upper ? edges->upper : edges->lower;
-    edge = WhereShadowBegins(std::move(edge), shadow.width_px, left);
+    edge = WhereShadowBegins(std::move(edge), shadow, left);
   }
 
   // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
@@ -410,17 +412,20 @@ class BladeLocator {
     return InShadow(guess).value_or(std::move(edge));
   }
 
-  // The edge `width_px` further in, if light clearly falls there, as it does not where the margin
-  // is but shading; doubted by as much all the same.
-  [[nodiscard]] LocatedEdge WhereShadowBegins(LocatedEdge edge, double width_px, bool left) const {
+  // The edge as much further in as the shadow is wide, if light clearly changes there, as it does
+  // not where the margin is but shading; doubted all the same.
+  [[nodiscard]] LocatedEdge WhereShadowBegins(LocatedEdge edge,
+                                              const Margin& shadow,
+                                              bool left) const {
     constexpr double kReach = 0.2, kLeast = 3;  // of the width, px; bevels end further in
+    constexpr double kUnclear = 0.75;           // ambiguity
     constexpr double kDoubt = 0.5;              // of the width
-    EdgeGuess guess{{}, left, std::max(kLeast, kReach * width_px)};
+    EdgeGuess guess{{}, left, std::max(kLeast, kReach * shadow.width_px)};
     for (const LocatedEdgePoint& p : edge.points)
-      guess.path_px.push_back(p.trend_px - width_px * p.normal);
-    std::optional<LocatedEdge> begins = InShadow(guess);
-    if (!begins || begins->ambiguity > kAsGood) return edge;
-    Doubt(&*begins, kDoubt * width_px);
+      guess.path_px.push_back(p.trend_px - shadow.width_px * p.normal);
+    std::optional<LocatedEdge> begins = InShadow(guess, shadow.than_blade);
+    if (!begins || begins->ambiguity > kUnclear) return edge;
+    Doubt(&*begins, kDoubt * shadow.width_px);
     return *std::move(begins);
   }
 

@@ -20,7 +20,7 @@ constexpr double kBlade = 120, kGround = 200, kDark = 50;  // grey values, linea
 double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
 
 // Light that depends on the distance from an upright edge, the ground on its right.
-std::optional<DarkMargin> MarginIn(const std::function<double(double)>& light) {
+std::optional<Margin> MarginIn(const std::function<double(double)>& light) {
   testing::Gaussian random(1);
   cv::Mat grey(160, 200, CV_8UC1);
   for (int y = 0; y < grey.rows; ++y) {
@@ -34,14 +34,14 @@ std::optional<DarkMargin> MarginIn(const std::function<double(double)>& light) {
     point.normal = {1, 0};
     edge.points.push_back(point);
   }
-  return FindDarkMargin(grey, testing::GammaCurve(1), edge, kBladePx);
+  return FindMargin(grey, testing::GammaCurve(1), edge, kBladePx);
 }
 
 double WithMargin(double d, double width_px) {
   return kBlade + Smooth(d + width_px) * (kDark - kBlade) + Smooth(d) * (kGround - kDark);
 }
 
-TEST(FindDarkMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
+TEST(FindMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
   for (const double width_px : {4, 9, 20}) {
     const auto margin = MarginIn([&](double d) { return WithMargin(d, width_px); });
     ASSERT_TRUE(margin) << width_px;
@@ -51,7 +51,23 @@ TEST(FindDarkMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
   }
 }
 
-TEST(FindDarkMargin, SeesNoneWhereThereIsNone) {
+TEST(FindMargin, MeasuresWhatIsBrighterThanABlackBlade) {
+  constexpr double kBlack = 20;
+  for (const double width_px : {6, 9, 20}) {
+    const auto margin = MarginIn([&](double d) {
+      return kBlack + Smooth(d + width_px) * (kDark - kBlack) + Smooth(d) * (kGround - kDark);
+    });
+    ASSERT_TRUE(margin) << width_px;
+    EXPECT_EQ(margin->than_blade, Shadow::kBrighter);
+    EXPECT_NEAR(margin->width_px, width_px, 1.5);
+    EXPECT_NEAR(margin->light, kDark / 255, 0.02);
+  }
+  EXPECT_FALSE(MarginIn([](double d) {
+    return kBlack + std::exp(d / 12) * (kDark - kBlack) + Smooth(d) * (kGround - kDark);
+  })) << "shading";
+}
+
+TEST(FindMargin, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(MarginIn([](double d) { return kBlade + Smooth(d) * (kGround - kBlade); }));
   EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
   EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
@@ -59,13 +75,14 @@ TEST(FindDarkMargin, SeesNoneWhereThereIsNone) {
 }
 
 TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
-  const DarkMargin shadow{10, 0.2, 0.7};
+  const Margin shadow{10, 0.2, 0.7};
   EXPECT_TRUE(AreOneShadow(shadow, {7, 0.19, 0.72}));
   EXPECT_FALSE(AreOneShadow(shadow, {7, 0.17, 0.72}));
   EXPECT_FALSE(AreOneShadow({10, 0.17, 0.7}, {7, 0.2, 0.72}));
   EXPECT_FALSE(AreOneShadow(shadow, {7, 0.19, 0.64}));
   EXPECT_FALSE(AreOneShadow(shadow, {4, 0.2, 0.7}));
   EXPECT_FALSE(AreOneShadow({4, 0.2, 0.7}, shadow));
+  EXPECT_FALSE(AreOneShadow(shadow, {10, 0.2, 0.7, Shadow::kBrighter}));
 }
 
 }  // namespace

@@ -118,28 +118,48 @@ TEST(LocateBlades, TakesTheColoursOfLargePhotographsToo) {
   }
 }
 
+// Shadows fall out of one blade's cutting edge and of the other one's outer side.
+SceneSpec SceneWithShadowOnOneSide(double elevation_rad) {
+  SceneSpec spec;
+  spec.width = 2000;
+  spec.height = 1500;
+  spec.camera.mm_per_px = 0.134;
+  spec.theta_rad = 19 * kDegree;
+  spec.heading_rad = 33 * kDegree;
+  spec.edge_height_mm = 2.75;
+  spec.scissors.width_mm = 7.3;
+  spec.light.direction_rad = 170 * kDegree;
+  spec.light.elevation_rad = elevation_rad;
+  spec.light.shadow = 0.72;
+  spec.light.shadow_blur_mm = 0.16;
+  spec.light.glint = 1.1;
+  return spec;
+}
+
 // Grey on grey, colours tell nothing. A shadow as dark as the blade's bevel might be its bevel, but
 // the other blade's outer side has none.
 TEST(LocateBlades, TakesNoShadowForBladeThatTheOtherBladesOuterSideCastsToo) {
   constexpr double kClosePx = 0.3;
   for (const double elevation_rad : {35 * kDegree, 42 * kDegree, 50 * kDegree}) {
-    SceneSpec spec;
-    spec.width = 2000;
-    spec.height = 1500;
-    spec.camera.mm_per_px = 0.134;
-    spec.theta_rad = 19 * kDegree;
-    spec.heading_rad = 33 * kDegree;
-    spec.edge_height_mm = 2.75;
-    spec.scissors.width_mm = 7.3;
-    spec.light.direction_rad = 170 * kDegree;
-    spec.light.elevation_rad = elevation_rad;
-    spec.light.shadow = 0.72;
-    spec.light.shadow_blur_mm = 0.16;
-    spec.light.glint = 1.1;
+    const SceneSpec spec = SceneWithShadowOnOneSide(elevation_rad);
     const BladeEdges edges = Seen(spec).Locate();
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << elevation_rad;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << elevation_rad;
+  }
+}
+
+// Black blades are darker than their shadows on paper, which look like bevels.
+TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsToo) {
+  constexpr double kClosePx = 0.3;
+  for (const double shadow : {0.85, 0.88}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(42 * kDegree);
+    spec.finish = Finish::kBlack;
+    spec.light.shadow = shadow;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
   }
 }
 
