@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "vision/blurred_step.h"
-#include "vision/cast_shadow.h"
 #include "vision/colour_border.h"
 #include "vision/consistency.h"
 #include "vision/cross.h"
 #include "vision/edge_colour.h"
 #include "vision/edge_curve.h"
+#include "vision/edge_margin.h"
 #include "vision/edge_shadow.h"
 #include "vision/parallel.h"
 #include "vision/refused.h"
@@ -264,19 +264,12 @@ class BladeLocator {
   // An edge along the border of a shadow that its blade casts is looked for where that begins. The
   // other blade's outer side, which faces the same way, casts the same one.
   void LeaveCastShadow(bool upper_on_left, BladeEdges* edges) const {
-    const auto margin = [&](const LocatedEdge& edge, bool left) {
-      const double width_px = (left ? scene_.left : scene_.right).width_px;
-      return FindMargin(photo_.grey(), tone_, edge, width_px);
-    };
-    const auto of_upper = margin(edges->upper, upper_on_left);
-    const auto of_lower = margin(edges->lower, !upper_on_left);
+    const auto of_upper = MarginOf(edges->upper, upper_on_left);
+    const auto of_lower = MarginOf(edges->lower, !upper_on_left);
     if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
     const bool left = of_upper ? upper_on_left : !upper_on_left;
-    const EdgeGuess side = OuterSideOf(scene_, !left);
-    if (side.path_px.size() < 2) return;
-    const auto outer =
-        UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
-    const auto of_outer = outer ? margin(*outer, !left) : std::nullopt;
+    const auto outer = LocateOuterSide(!left);
+    const auto of_outer = outer ? MarginOf(*outer, !left) : std::nullopt;
     const Margin& shadow = of_upper ? *of_upper : *of_lower;
     if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
     LocatedEdge& edge = of_upper ? edges->upper : edges->lower;
@@ -439,14 +432,47 @@ class BladeLocator {
     return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, guess, options_); });
   }
 
+  // Whether the blade is as dark along its other side as in the band beside this edge, as rounded
+  // ones are. Shadows fall to one side.
+  [[nodiscard]] bool IsRound(const LocatedEdge& edge, bool left) const {
+    constexpr double kWholeBand = 1.7;  // times a margin's width
+    const std::optional<LocatedEdge> border = BeyondBand(edge, left);
+    std::optional<LocatedEdge> outer = LocateOuterSide(left);
+    if (outer && HasDarkBand(*outer)) outer = BeyondBand(*outer, !left);
+    if (!border || !outer) return false;
+    const auto band = MarginOf(*border, left), other = MarginOf(*outer, left);
+    if (!band || !other || !AreOneShading(*band, *other)) return false;
+    return kWholeBand * band->width_px > std::abs(edge.rival_px);
+  }
+
+  // The edge along the outer side of the dark band beside it, if it is seen there.
+  [[nodiscard]] std::optional<LocatedEdge> BeyondBand(const LocatedEdge& edge, bool left) const {
+    return edge.rival_px > 0 ? AlongSide(edge.rival_path_px, edge, left) : edge;
+  }
+
+  // std::nullopt where it is not seen.
+  [[nodiscard]] std::optional<LocatedEdge> LocateOuterSide(bool left) const {
+    const EdgeGuess side = OuterSideOf(scene_, left);
+    if (side.path_px.size() < 2) return std::nullopt;
+    return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
+  }
+
+  // Along an edge or outer side of a blade.
+  [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const {
+    const double width_px = (left ? scene_.left : scene_.right).width_px;
+    return FindMargin(photo_.grey(), tone_, edge, width_px);
+  }
+
   // Of the two sides of a dark band, the inner one is the blade's border if the band is the
   // background in shadow, the outer one if it is metal. Faint bands are not worth the colours.
   [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
     const SceneBlade& blade = left ? scene_.left : scene_.right;
     const SceneBlade& other = left ? scene_.right : scene_.left;
-    const DarkBand band =
-        HasDarkBand(edge) ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
-                          : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
+    DarkBand band = HasDarkBand(edge)
+                        ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
+                        : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
+    const bool worth_a_look = edge.rival_px > 0 || HasDarkBand(edge);
+    if (band == DarkBand::kUnknown && worth_a_look && IsRound(edge, left)) band = DarkBand::kMetal;
     if (band == DarkBand::kUnknown) return edge;
     const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
     return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)

@@ -240,8 +240,11 @@ class PaintedBlades {
     Scene scene;
     for (SceneBlade* blade : {&scene.left, &scene.right}) {
       const double slope = blade == &scene.left ? kUpper : kLower;
-      for (int x = from; x < kEnd - 5; ++x)
+      const double below_px = blade == &scene.left ? -kBladePx : kBladePx;
+      for (int x = from; x < kEnd - 5; ++x) {
         blade->inner_px.push_back(At(x, x < kCrossing ? kUpper : slope));
+        blade->outer_px.push_back(At(x, slope, below_px));
+      }
       blade->tip_px = At(kEnd, slope);
       blade->width_px = kBladePx;
     }
@@ -280,6 +283,22 @@ TEST(LocateBlades, LeavesNarrowShadowsInSharpPictures) {
   blades.Paint(PaintedBlades::kLower, PaintedBlades::kBladePx, kBlade);
   blades.Paint(PaintedBlades::kUpper, -PaintedBlades::kBladePx, kBlade);
   PaintedBlades::ExpectOnEdges(blades.Locate(PaintedBlades::kCrossing + 20, kBlurPx));
+}
+
+// A rounded blade is bright along its middle alone. A shadow falls to one side.
+TEST(LocateBlades, TakeTheFlankOfARoundBladeForBlade) {
+  constexpr double kFlankPx = 22, kBlurPx = 0.8;
+  constexpr uchar kGround = 150, kFlank = 60, kRidge = 165;
+  for (const double outer_flank_px : {16, 22, 30}) {
+    PaintedBlades blades(kGround);
+    for (const auto& [blade, side] :
+         {std::pair(PaintedBlades::kLower, 1.0), std::pair(PaintedBlades::kUpper, -1.0)}) {
+      blades.Paint(blade, side * PaintedBlades::kBladePx, kFlank);
+      blades.Paint(blade, side * (PaintedBlades::kBladePx - outer_flank_px), kRidge);
+      blades.Paint(blade, side * kFlankPx, kFlank);
+    }
+    PaintedBlades::ExpectOnEdges(blades.Locate(PaintedBlades::kCrossing + 20, kBlurPx));
+  }
 }
 
 // A bevel about as dark as the ground seems to part the blades as far as their joint.

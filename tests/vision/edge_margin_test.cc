@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-// Shadows that were taken for blade, and bevels, which are blade.
-#include "vision/cast_shadow.h"
+// Shadows that were taken for blade, and bevels and rounded flanks, which are blade.
+#include "vision/edge_margin.h"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +72,15 @@ TEST(FindMargin, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
   EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
       << "a bright blade";
+}
+
+TEST(AreOneShading, NeedsMarginsDarkerThanTheBladeAndAboutAsDarkAndWide) {
+  const Margin flank{10, 0.2, 0.7};
+  EXPECT_TRUE(AreOneShading(flank, {7, 0.28, 0.6}));
+  EXPECT_FALSE(AreOneShading(flank, {4, 0.2, 0.7}));
+  EXPECT_FALSE(AreOneShading(flank, {10, 0.4, 0.7}));
+  EXPECT_FALSE(AreOneShading(flank, {10, 0.2, 0.5}));
+  EXPECT_FALSE(AreOneShading(flank, {10, 0.2, 0.7, Shadow::kBrighter}));
 }
 
 TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/cast_shadow.h"
+#include "vision/edge_margin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,6 +101,14 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   const double widest = std::max(kWidest * blade_px, kLeastWidestPx);
   std::optional<Margin> margin = DarkMargin(light_at, ground_light, widest);
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
+}
+
+bool AreOneShading(const Margin& a, const Margin& b) {
+  constexpr double kSameLight = 1.6, kSameGround = 1.25, kSameWidth = 2;
+  const bool dark = a.than_blade == Shadow::kDarker && b.than_blade == Shadow::kDarker;
+  return dark && WithinFactor(a.light, b.light, kSameLight) &&
+         WithinFactor(a.ground, b.ground, kSameGround) &&
+         WithinFactor(a.width_px, b.width_px, kSameWidth);
 }
 
 bool AreOneShadow(const Margin& a, const Margin& b) {
