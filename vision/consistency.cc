@@ -13,8 +13,22 @@
 namespace bladecurve {
 namespace {
 
-void RefuseOutOfPlane(const Pivot& pivot) {
+// Bright metal on white: of a blade that is plain white only the outer side's outline is left.
+void RefuseWhite(const LocatedEdge& edge) {
+  constexpr double kWhite = 0.5;   // share of its length
+  constexpr double kVague = 0.65;  // ambiguity
+  if (edge.overexposed < kWhite || edge.ambiguity < kVague) return;
+  throw Refused(Reason::kLowContrast,
+                "edges: a blade or its background is plain white along " +
+                    std::to_string(std::lround(100 * edge.overexposed)) +
+                    " % of a cutting edge, which hardly shows there; expose less, or use a darker "
+                    "background");
+}
+
+void RefuseOutOfPlane(const Pivot& pivot, const Blades& blades) {
   if (!LieInNoPlane(pivot.asymmetry)) return;
+  RefuseWhite(blades.upper.edge);
+  RefuseWhite(blades.lower.edge);
   throw Refused(
       Reason::kOutOfPlane,
       "pivot: the two cutting edges pass by the pivot at very different distances (" +
@@ -44,9 +58,11 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
 // Of the overlap at the pivot; jaws have 0.03 and less.
 constexpr double kLeastOfScissors = 0.045;
 
-void RefuseJaws(const Pivot& pivot) {
+void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   constexpr double kLeastOverlap = 0.04;  // between those of scissors and of jaws
   if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
+  RefuseWhite(blades.upper.edge);
+  RefuseWhite(blades.lower.edge);
   throw Refused(
       Reason::kNotScissors,
       "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
@@ -70,8 +86,8 @@ bool PassUnlike(const Pivot& pivot) {
 }  // namespace
 
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
-  RefuseOutOfPlane(pivot);
-  RefuseJaws(pivot);
+  RefuseOutOfPlane(pivot, blades);
+  RefuseJaws(pivot, blades);
   RefuseUnknownPivot(pivot, blades);
 }
 
@@ -113,6 +129,16 @@ void RefuseEdgesShortOfPivot(const Pivot& pivot) {
                 "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
                 "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
                 "or a shadow hides that edge: use another background or light");
+}
+
+void RefuseContestedHead(const Pivot& pivot) {
+  constexpr double kFar = 2.5;        // standard uncertainties
+  constexpr double kMostOfNone = 8;  // evidence; beyond, nothing was taken for a head falsely
+  if (!pivot.screw || !IsFaint(*pivot.screw) || pivot.screw->evidence > kMostOfNone) return;
+  if (pivot.off_geometry < kFar) return;
+  throw Refused(Reason::kAmbiguousPivot,
+                "pivot: something round is faintly seen, but far from where the blades put the "
+                "pivot; say where it is: --pivot X,Y; or light the screw");
 }
 
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {

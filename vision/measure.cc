@@ -253,6 +253,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const MirrorView view{photo, scale, scene};
   Reconcile(view, &pivot, &parts.blades, &log);
   DropFalseHead(scale, scene, parts.blades, &pivot, &log);
+  RefuseContestedHead(pivot);
   RefuseUnlikeEdges(pivot, scale, parts.blades);
   RefuseUnconfirmedScene(scene, pivot);
   CutWhereEdgesPart(view, pivot, &parts.blades);

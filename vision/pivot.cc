@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot.h"
 
-#include <Eigen/Core>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -42,6 +42,13 @@ Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMi
           mirror.sine * behind.sigma / length};
 }
 
+// How far apart two places are, in standard uncertainties of their distance.
+double SigmasApart(const Pivot& a, const Pivot& b) {
+  const Vector2d apart = a.point_px - b.point_px;
+  const Eigen::Matrix2d covariance = a.covariance_px2 + b.covariance_px2;
+  return std::sqrt(apart.dot(covariance.ldlt().solve(apart)));
+}
+
 // The edges about the pivot. Those of bent blades are no mirror images, and nothing is said of
 // them.
 void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
@@ -50,6 +57,8 @@ void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) 
   const Estimate overlap = OverlapSeen(*pivot, search, mirror);
   pivot->overlap = overlap.value;
   pivot->overlap_sigma = overlap.sigma;
+  pivot->off_geometry =
+      pivot->source == "geometry" ? 0 : SigmasApart(*pivot, FromGeometry(search.scene, mirror));
 }
 
 }  // namespace

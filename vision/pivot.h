@@ -20,11 +20,12 @@ namespace bladecurve {
 struct Pivot {
   Eigen::Vector2d point_px;
   Eigen::Matrix2d covariance_px2;
-  std::string source;                                     // "screw", "geometry", "hint"
-  double asymmetry = 0;                                   // see EdgeAsymmetry; 0 if bent
-  bool bent = false;                                      // see AreBentToOneSide
-  double overlap = 0, overlap_sigma = 0;                  // see EdgeOverlap
-  std::optional<Screw> screw;                             // if one is seen
+  std::string source;                     // "screw", "geometry", "hint"
+  double asymmetry = 0;                   // see EdgeAsymmetry; 0 if bent
+  bool bent = false;                      // see AreBentToOneSide
+  double overlap = 0, overlap_sigma = 0;  // see EdgeOverlap
+  double off_geometry = 0;     // standard uncertainties from where the blades alone put it
+  std::optional<Screw> screw;  // if one is seen
   Eigen::Vector2d geometry_px = Eigen::Vector2d::Zero();  // where the blades alone put it
 
   // In any direction, root mean square.

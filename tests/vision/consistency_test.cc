@@ -37,9 +37,9 @@ Blades BladesWithRivals(double upper_px, double lower_px) {
   return blades;
 }
 
-Reason ReasonFor(const Pivot& pivot) {
+Reason ReasonFor(const Pivot& pivot, const Blades& blades = BladesWithRivals(0, 0)) {
   try {
-    RefuseInconsistent(pivot, BladesWithRivals(0, 0));
+    RefuseInconsistent(pivot, blades);
   } catch (const Refused& refused) {
     return refused.reason();
   }
@@ -60,6 +60,35 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   EXPECT_EQ(ReasonFor(vague), Reason::kFitFailed);
   vague.source = "geometry";
   EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
+}
+
+TEST(RefuseInconsistent, TakesNoWhiteBladeOnWhiteForAnAngledOneOrAJaw) {
+  Blades white = BladesWithRivals(0, 0);
+  white.lower.edge.overexposed = 0.9;
+  EXPECT_EQ(ReasonFor(PivotSeen(0.25), white), Reason::kOutOfPlane) << "its edge is clear";
+  white.lower.edge.ambiguity = 0.75;
+  EXPECT_EQ(ReasonFor(PivotSeen(0.25), white), Reason::kLowContrast);
+  EXPECT_EQ(ReasonFor(PivotSeen(0.05), white), Reason::kFitFailed);
+  Pivot jaws = PivotSeen(0);
+  jaws.overlap = 0.01;
+  EXPECT_EQ(ReasonFor(jaws, white), Reason::kLowContrast);
+}
+
+TEST(RefuseContestedHead, SpeaksUpWhereAFaintHeadLiesFarFromWhereTheBladesPutThePivot) {
+  Pivot pivot = PivotSeen(0);
+  pivot.off_geometry = 4;
+  EXPECT_NO_THROW(RefuseContestedHead(pivot)) << "a hint";
+  Screw screw;
+  screw.center_px.setZero();
+  screw.covariance_px2.setIdentity();
+  screw.evidence = 5;
+  pivot.screw = screw;
+  EXPECT_THROW(RefuseContestedHead(pivot), Refused);
+  pivot.off_geometry = 2;
+  EXPECT_NO_THROW(RefuseContestedHead(pivot));
+  pivot.off_geometry = 4;
+  pivot.screw->evidence = 9;
+  EXPECT_NO_THROW(RefuseContestedHead(pivot)) << "clearly seen";
 }
 
 TEST(RefuseEdgesShortOfPivot, SpeaksUpWhereOneEdgeDoesNotReachAScrewThatIsSeen) {

@@ -191,6 +191,20 @@ TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {
   EXPECT_EQ(variance_px2(0.8), alike);
 }
 
+TEST(FindPivot, SaysHowFarTheHeadLiesFromWhereTheBladesPutIt) {
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const auto off_geometry = [&](const Vector2d& by_px) {
+    Screw screw = HeadAside(measured, 2 * kBeyondDoubt);
+    screw.center_px = measured.truth.screw_px + by_px;
+    const PivotSearch search{measured.scene, edges, std::nullopt, screw};
+    return FindPivot(measured.photo.grey(), measured.scale, search).off_geometry;
+  };
+  EXPECT_LT(off_geometry(Vector2d::Zero()), 2);
+  EXPECT_GT(off_geometry(40 * measured.truth.axis_px), 3);
+  EXPECT_EQ(PivotByBlades(measured.scene, edges).off_geometry, 0);
+}
+
 TEST(FindPivot, SeesASlotWhereItIsCut) {
   constexpr double kClose = 0.03;  // of the radius
   SceneSpec spec = SceneWithMarkers();
