@@ -108,8 +108,10 @@ void GradeLayout(const Ends& ends, BladePair* pair) {
 
 // Whether the rest is what blades hang on.
 void GradeShanks(const ShankEnd& shank_first, const ShankEnd& shank_second, BladePair* pair) {
+  // A shank that tapers to the frame has no ring beyond it.
   const auto ring = [](const ShankEnd& shank) {
-    return shank.cut_off ? 0.9 : 1 - Grade(shank.flare, 1.0, 1.6) * 0.8;
+    return shank.cut_off ? 0.9 - 0.3 * Grade(shank.flare, 0.5, 0.7)
+                         : 1 - Grade(shank.flare, 1.0, 1.6) * 0.8;
   };
   // What runs out of sight may go on as long as it likes.
   const auto reach = [](const ShankEnd& shank) { return shank.cut_off ? 1e9 : shank.length; };

@@ -143,7 +143,7 @@ void RefuseContestedHead(const Pivot& pivot) {
 
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   constexpr double kMost = 0.07;   // of the length; blades photographed at a slant differ by 0.05
-  constexpr double kPlain = 0.85;  // quality; lines on a mat that cross look like worse ones
+  constexpr double kPlain = 0.8;   // quality; lines on a mat that cross look like worse ones
   const bool seen = pivot.source != "geometry";
   const bool mirrored = std::abs(pivot.asymmetry) < kMost;
   const bool doubtful = scene.IsDoubtful() || (!seen && scene.quality < kPlain);

@@ -115,7 +115,7 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
   inferred.source = "geometry";
   EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, inferred));
   Scene fair = plain;
-  fair.quality = 0.8;
+  fair.quality = 0.78;
   const auto reason = [&](const Scene& scene) {
     try {
       RefuseUnconfirmedScene(scene, inferred);

@@ -178,7 +178,10 @@ TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
   const cv::Point joint(250, 200);
   for (const int sign : {-1, 1}) {
     const cv::Point tip(80, 200 - 70 * sign);
-    const std::vector<cv::Point> blade{tip, joint + cv::Point(-4, -18), joint + cv::Point(4, 18)};
+    const std::vector<cv::Point> blade{tip + cv::Point(0, 8),
+                                       tip + cv::Point(0, -8),
+                                       joint + cv::Point(-4, -18),
+                                       joint + cv::Point(4, 18)};
     cv::fillConvexPoly(mask, blade, 255);
     cv::line(mask, joint, {700, 200 + 185 * sign}, 255, 14);
     cv::rectangle(hidden, tip + cv::Point(-40, -20), tip + cv::Point(-1, 20), 255, cv::FILLED);
@@ -192,6 +195,28 @@ TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {
     EXPECT_FALSE(blade->cut_off);
     EXPECT_LT(blade->tip.x(), joint.x);
   }
+}
+
+// Two pointed rods that cross look like scissors whose rings are out of the picture, but for the
+// width that is left at the frame.
+TEST(FindBladePairs, DoubtsShanksThatTaperToTheFrame) {
+  constexpr double kPlain = 0.8;
+  const auto quality = [](int width_at_frame) {
+    cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
+    const cv::Point joint(280, 200), half(2, 12);
+    for (const int sign : {-1, 1}) {
+      const cv::Point tip(540, 200 - 70 * sign), end(0, 200 + 75 * sign);
+      const cv::Point frame(0, width_at_frame / 2);
+      const std::vector<cv::Point> blade{tip, joint - half, joint + half};
+      const std::vector<cv::Point> shank{end - frame, end + frame, joint + half, joint - half};
+      cv::fillConvexPoly(mask, blade, 255);
+      cv::fillConvexPoly(mask, shank, 255);
+    }
+    return FindBladePairs(FindSilhouettes(mask, 1).front(), {}).front().quality;
+  };
+  EXPECT_GT(quality(20), kPlain);
+  EXPECT_GT(quality(14), kPlain);
+  EXPECT_LT(quality(2), kPlain);
 }
 
 TEST(FindBladePairs, TakesNoShanksForCutOffWhereBladesAre) {
