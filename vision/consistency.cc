@@ -132,7 +132,7 @@ void RefuseEdgesShortOfPivot(const Pivot& pivot) {
 }
 
 void RefuseContestedHead(const Pivot& pivot) {
-  constexpr double kFar = 2.5;        // standard uncertainties
+  constexpr double kFar = 2.5;       // standard uncertainties
   constexpr double kMostOfNone = 8;  // evidence; beyond, nothing was taken for a head falsely
   if (!pivot.screw || !IsFaint(*pivot.screw) || pivot.screw->evidence > kMostOfNone) return;
   if (pivot.off_geometry < kFar) return;
