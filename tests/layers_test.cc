@@ -9,6 +9,7 @@
 #include <fstream>
 #include <memory>
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,27 @@ TEST(Layers, CurvefitSeesOnlyTheResultsOfVisionAndCeresInSources) {
                     {"curvefit/", "model/", "vision/edge_points.h", "vision/refused.h"},
                     {"Eigen/"},
                     {"ceres/"}});
+}
+
+// As their CMake targets list them.
+std::vector<fs::path> InstalledHeaders() {
+  std::istringstream list(BLADECURVE_INSTALLED_HEADERS);
+  std::vector<fs::path> headers;
+  for (std::string path; std::getline(list, path, ':');) headers.emplace_back(path);
+  return headers;
+}
+
+TEST(Layers, InstalledHeadersIncludeInstalledOnes) {
+  const std::vector<fs::path> installed = InstalledHeaders();
+  ASSERT_GT(installed.size(), 20U);
+  for (const fs::path& header : installed) {
+    ASSERT_TRUE(fs::exists(header)) << header;
+    for (const Include& include : IncludesOf(header)) {
+      const fs::path included = fs::path(BLADECURVE_SOURCE_DIR) / include.target;
+      const bool found = std::find(installed.begin(), installed.end(), included) != installed.end();
+      EXPECT_TRUE(found || !include.project) << header << " includes " << include.target;
+    }
+  }
 }
 
 TEST(Layers, ModelLinksNeitherOpenCvNorCeres) {

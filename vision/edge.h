@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "vision/edge_path.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {
@@ -85,6 +84,9 @@ struct LocatedEdge {
                                      const ToneCurve& tone,
                                      const EdgeGuess& guess,
                                      const EdgeOptions& options = {});
+
+// How a shadow beside a blade compares with it.
+enum class Shadow { kDarker, kBrighter };
 
 // The same where a shadow begins at the blade's border, so that light falls there, going outwards,
 // or rises by less than at the shadow's border, sharply or slowly: along the clearest such step.

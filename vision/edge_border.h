@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/edge.h"
 #include "vision/edge_line.h"
 #include "vision/edge_path.h"
 #include "vision/edge_survey.h"

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/edge.h"
 #include "vision/edge_path.h"
 
 namespace bladecurve {

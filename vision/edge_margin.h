@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "vision/edge.h"
-#include "vision/edge_path.h"
 #include "vision/tone_curve.h"
 
 namespace bladecurve {

@@ -7,9 +7,6 @@
 
 namespace bladecurve {
 
-// How a shadow beside a blade compares with it.
-enum class Shadow { kDarker, kBrighter };
-
 // A smooth curve in the picture, sampled about every pixel of its length.
 struct EdgePath {
   std::vector<Eigen::Vector2d> points;    // px
