@@ -25,10 +25,14 @@ void RefuseWhite(const LocatedEdge& edge) {
                     "background");
 }
 
-void RefuseOutOfPlane(const Pivot& pivot, const Blades& blades) {
-  if (!LieInNoPlane(pivot.asymmetry)) return;
+void RefuseWhite(const Blades& blades) {
   RefuseWhite(blades.upper.edge);
   RefuseWhite(blades.lower.edge);
+}
+
+void RefuseOutOfPlane(const Pivot& pivot, const Blades& blades) {
+  if (!LieInNoPlane(pivot.asymmetry)) return;
+  RefuseWhite(blades);
   throw Refused(
       Reason::kOutOfPlane,
       "pivot: the two cutting edges pass by the pivot at very different distances (" +
@@ -61,8 +65,7 @@ constexpr double kLeastOfScissors = 0.045;
 void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   constexpr double kLeastOverlap = 0.04;  // between those of scissors and of jaws
   if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
-  RefuseWhite(blades.upper.edge);
-  RefuseWhite(blades.lower.edge);
+  RefuseWhite(blades);
   throw Refused(
       Reason::kNotScissors,
       "pivot: the two inner edges meet at the pivot instead of passing by it, like the "

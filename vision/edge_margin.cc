@@ -66,13 +66,13 @@ std::optional<Margin> BrightMargin(const Across& light_at,
   constexpr double kBrighter = 1.5;                 // than the blade
   constexpr double kHalf = 0.5, kEnds = 0.75;       // of the way to the blade's light
   const double foot = std::max(kNearestPx, kBlurs * BlurOr(edge, kUsualBlurPx));
+  const double shoulder = light_at(-foot);
+  if (ground < kDarker * shoulder) return std::nullopt;
   std::vector<double> light;
   for (double across = foot; across <= widest_px; ++across) light.push_back(light_at(-across));
   if (light.empty()) return std::nullopt;
   const double plate = *std::min_element(light.begin(), light.end());
-  const double shoulder = light.front();
-  if (plate <= 0 || shoulder < kBrighter * plate || ground < kDarker * shoulder)
-    return std::nullopt;
+  if (plate <= 0 || shoulder < kBrighter * plate) return std::nullopt;
   const auto falls_at = [&](double share) {  // px from the foot
     const double level = shoulder + share * (plate - shoulder);
     const auto fallen = [&](double l) { return l <= level; };
@@ -83,6 +83,13 @@ std::optional<Margin> BrightMargin(const Across& light_at,
 }
 
 bool WithinFactor(double a, double b, double factor) { return a < factor * b && b < factor * a; }
+
+bool AreAlike(const Margin& a, const Margin& b, double same_light, double same_ground) {
+  constexpr double kSameWidth = 2;
+  return a.than_blade == b.than_blade && WithinFactor(a.light, b.light, same_light) &&
+         WithinFactor(a.ground, b.ground, same_ground) &&
+         WithinFactor(a.width_px, b.width_px, kSameWidth);
+}
 
 }  // namespace
 
@@ -104,18 +111,13 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
 }
 
 bool AreOneShading(const Margin& a, const Margin& b) {
-  constexpr double kSameLight = 1.6, kSameGround = 1.25, kSameWidth = 2;
-  const bool dark = a.than_blade == Shadow::kDarker && b.than_blade == Shadow::kDarker;
-  return dark && WithinFactor(a.light, b.light, kSameLight) &&
-         WithinFactor(a.ground, b.ground, kSameGround) &&
-         WithinFactor(a.width_px, b.width_px, kSameWidth);
+  constexpr double kSameLight = 1.6, kSameGround = 1.25;
+  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround);
 }
 
 bool AreOneShadow(const Margin& a, const Margin& b) {
-  constexpr double kSameLight = 1.12, kSameGround = 1.06, kSameWidth = 2;
-  return a.than_blade == b.than_blade && WithinFactor(a.light, b.light, kSameLight) &&
-         WithinFactor(a.ground, b.ground, kSameGround) &&
-         WithinFactor(a.width_px, b.width_px, kSameWidth);
+  constexpr double kSameLight = 1.12, kSameGround = 1.06;
+  return AreAlike(a, b, kSameLight, kSameGround);
 }
 
 }  // namespace bladecurve

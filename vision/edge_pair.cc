@@ -468,13 +468,13 @@ class BladeLocator {
   [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
     const SceneBlade& blade = left ? scene_.left : scene_.right;
     const SceneBlade& other = left ? scene_.right : scene_.left;
-    DarkBand band = HasDarkBand(edge)
-                        ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
-                        : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
-    const bool worth_a_look = edge.rival_px > 0 || HasDarkBand(edge);
-    if (band == DarkBand::kUnknown && worth_a_look && IsRound(edge, left)) band = DarkBand::kMetal;
+    const bool clear = HasDarkBand(edge), is_inner = edge.rival_px > 0;
+    DarkBand band = clear ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
+                          : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
+    if (band == DarkBand::kUnknown && (clear || is_inner) && IsRound(edge, left))
+      band = DarkBand::kMetal;
     if (band == DarkBand::kUnknown) return edge;
-    const bool want_inner = band == DarkBand::kShadow, is_inner = edge.rival_px > 0;
+    const bool want_inner = band == DarkBand::kShadow;
     return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)
         .value_or(edge);
   }
