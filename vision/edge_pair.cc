@@ -464,8 +464,10 @@ class BladeLocator {
   }
 
   // Of the two sides of a dark band, the inner one is the blade's border if the band is the
-  // background in shadow, the outer one if it is metal. Faint bands are not worth the colours.
+  // background in shadow, the outer one if it is metal; within a band that is either, the edge is
+  // in doubt. Faint bands are not worth the colours.
   [[nodiscard]] LocatedEdge SettleDarkBand(LocatedEdge edge, bool left) {
+    constexpr double kDoubt = 0.5;  // of the band; in one rendered scene of five the edge is beyond
     const SceneBlade& blade = left ? scene_.left : scene_.right;
     const SceneBlade& other = left ? scene_.right : scene_.left;
     const bool clear = HasDarkBand(edge), is_inner = edge.rival_px > 0;
@@ -473,7 +475,10 @@ class BladeLocator {
                           : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
     if (band == DarkBand::kUnknown && (clear || is_inner) && IsRound(edge, left))
       band = DarkBand::kMetal;
-    if (band == DarkBand::kUnknown) return edge;
+    if (band == DarkBand::kUnknown) {
+      if (clear && is_inner) Doubt(&edge, kDoubt * edge.rival_px);
+      return edge;
+    }
     const bool want_inner = band == DarkBand::kShadow;
     return AlongSide(want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)
         .value_or(edge);

@@ -301,6 +301,20 @@ TEST(LocateBlades, TakeTheFlankOfARoundBladeForBlade) {
   }
 }
 
+// About as dark as the ground, the bevel of one blade: only the line where it begins is clear.
+TEST(LocateBlades, DoubtAnEdgeWithinABandThatNothingSettles) {
+  constexpr double kBevelPx = 22, kBlurPx = 0.8, kWithin = 2.5;  // standard uncertainties
+  constexpr uchar kGround = 102, kBevel = 95, kPlate = 165;
+  PaintedBlades blades(kGround);
+  blades.Paint(PaintedBlades::kLower, PaintedBlades::kBladePx, kPlate);
+  blades.Paint(PaintedBlades::kUpper, -PaintedBlades::kBladePx, kPlate);
+  blades.Paint(PaintedBlades::kUpper, -kBevelPx, kBevel);
+  const LocatedEdge upper = blades.Locate(PaintedBlades::kCrossing + 20, kBlurPx).upper;
+  const Eigen::Vector2d middle = upper.points[upper.points.size() / 2].trend_px;
+  const double off_px = middle.y() - PaintedBlades::At(middle.x(), PaintedBlades::kUpper).y();
+  EXPECT_LT(std::abs(off_px), kWithin * upper.common_sigma_px);
+}
+
 // A bevel about as dark as the ground seems to part the blades as far as their joint.
 TEST(LocateBlades, FollowNoEdgeOnAlongTheOther) {
   constexpr double kBevelPx = 35, kBlurPx = 0.8;
