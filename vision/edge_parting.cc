@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -121,6 +122,14 @@ PointRange Between(const Profile& profile, double from, double to) {
   return {at(first), at(first == last ? last : std::prev(last))};
 }
 
+// How much of an edge lies there.
+double ShareBetween(const Profile& profile, double from, double to) {
+  const auto there = std::count_if(profile.along.begin(), profile.along.end(), [&](double along) {
+    return along >= from && along <= to;
+  });
+  return static_cast<double>(there) / static_cast<double>(profile.along.size());
+}
+
 // Whether an end of either edge was cut off.
 struct WasCut {
   bool upper = false, lower = false;
@@ -161,6 +170,7 @@ class Comparison {
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t kSeen = 5;  // places of the gap; fewer may be chance
 
   void TakeProfiles() {
     upper_ = ProfileOf(line_, blades_.upper);
@@ -182,25 +192,17 @@ class Comparison {
             CountOff(off.begin(), off.end(), tolerance)};
   }
 
-  // Enough to be seen, and not so much that what is left has no middle.
-  [[nodiscard]] bool IsAnEnd(std::size_t count) const {
-    constexpr std::size_t kFewest = 5;
-    constexpr double kMost = 0.45;  // of the gap
-    return count >= kFewest &&
-           static_cast<double>(count) < kMost * static_cast<double>(gap_.along.size());
-  }
-
   // A tenth of the gap from either end, which the course of what is kept does not need.
   [[nodiscard]] std::size_t Margin() const { return gap_.along.size() / 10; }
 
   WasCut CutTip(std::size_t count) {
-    if (!IsAnEnd(count)) return {};
+    if (count < kSeen) return {};
     const double from = gap_.along[gap_.along.size() - 1 - count];
     return Cut({gap_.along[Margin()], from}, {from, gap_.along.back()}, {from, kInfinity});
   }
 
   WasCut CutCrotch(std::size_t count) {
-    if (!IsAnEnd(count)) return {};
+    if (count < kSeen) return {};
     const double to = gap_.along[count];
     return Cut({to, gap_.along[gap_.along.size() - 1 - Margin()]},
                {gap_.along.front(), to},
@@ -212,9 +214,16 @@ class Comparison {
     double from = 0, to = 0;
   };
 
-  // Cuts off the edge that leaves its own course there, or off both.
+  // Cuts off the edge that leaves its own course there, or off both. Continued further, a course
+  // says little; edges that part over so much are no mirror images.
   WasCut Cut(const Stretch& kept, const Stretch& parting, const Stretch& strays) {
+    constexpr double kMost = 0.35;    // of an edge
     constexpr double kClearly = 1.5;  // times as far
+    for (const Profile& profile : {std::cref(upper_), std::cref(lower_)}) {
+      if (ShareBetween(profile, strays.from, strays.to) <= kMost) continue;
+      blades_.edges_part = true;
+      return {};
+    }
     const auto leaves_by = [&](const Profile& profile, const LocatedBlade& blade) {
       return LeavesCourseBy(blade.edge.points,
                             Between(profile, kept.from, kept.to),

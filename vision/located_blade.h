@@ -27,6 +27,7 @@ struct LocatedBlade {
 struct Blades {
   LocatedBlade upper, lower;
   bool ends_contradict = false;  // one lies further from the pivot than the other, beyond doubt
+  bool edges_part = false;       // mirror images but over more than a third of an edge
 };
 
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is

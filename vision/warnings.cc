@@ -32,8 +32,9 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   };
   warn_if(pivot.source == "geometry", "pivot_not_seen");
   warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
-  warn_if(scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted,
-          "blades_asymmetric");
+  const bool pass_unlike =
+      scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted;
+  warn_if(pass_unlike || blades.edges_part, "blades_asymmetric");
   warn_if(pivot.bent, "blades_bent");  // neither edge confirms the other
   warn_if(blades.ends_contradict, "ends_unlike");
   warn_if(IsAmbiguous(blades.upper.edge), "upper_edge_ambiguous");

@@ -27,17 +27,18 @@ enum class Course { kAway, kAndBack };
 void LeadAstray(Measured* measured,
                 LocatedBlade* blade,
                 bool at_tip,
-                Course course = Course::kAway) {
-  constexpr double kShare = 0.22, kBack = 0.1, kMostPx = -8;
+                Course course = Course::kAway,
+                double share = 0.22) {
+  constexpr double kBack = 0.1, kMostPx = -8;
   std::vector<LocatedEdgePoint>& points = blade->edge.points;
   const auto count = static_cast<double>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double place = (static_cast<double>(i) + 0.5) / count;
     const double from_end = at_tip ? 1 - place : place;
-    if (from_end > kShare) continue;
-    const double back = std::clamp((from_end - kBack) / (kShare - kBack), 0.0, 1.0);
+    if (from_end > share) continue;
+    const double back = std::clamp((from_end - kBack) / (share - kBack), 0.0, 1.0);
     const double away =
-        course == Course::kAway ? 1 - from_end / kShare : std::sin(std::numbers::pi * back);
+        course == Course::kAway ? 1 - from_end / share : std::sin(std::numbers::pi * back);
     const Vector2d shift = kMostPx * away * points[i].normal;
     points[i].point_px += shift;
     points[i].trend_px += shift;
@@ -71,6 +72,7 @@ void ExpectTheEndIsCut(bool upper, bool at_tip, Course course) {
   CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
   EXPECT_LT(FarthestFrom(truth, astray), kClosePx) << upper << at_tip;
   EXPECT_LT((astray.end.point_px - truth.px.back()).norm(), kEndPx) << upper << at_tip;
+  EXPECT_FALSE(measured.blades.edges_part);
   EXPECT_EQ(PointsOf(other), others) << upper << at_tip;
 }
 
@@ -130,6 +132,19 @@ TEST(CutWhereEdgesPart, LeavesBladesBentToOneSide) {
     EXPECT_EQ(PointsOf(measured.blades.upper), upper) << curve_mm;
     EXPECT_EQ(PointsOf(measured.blades.lower), lower) << curve_mm;
   }
+}
+
+// Two fifths of an edge are no end: nothing tells which of the two to believe.
+TEST(CutWhereEdgesPart, LeavesEdgesThatPartOverMuchOfTheirLength) {
+  constexpr double kShare = 0.4;
+  Measured measured{SceneWithMarkers()};
+  LeadAstray(&measured, &measured.blades.upper, true, Course::kAway, kShare);
+  const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
+  const std::vector<Vector2d> lower = PointsOf(measured.blades.lower);
+  CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+  EXPECT_EQ(PointsOf(measured.blades.upper), upper);
+  EXPECT_EQ(PointsOf(measured.blades.lower), lower);
+  EXPECT_TRUE(measured.blades.edges_part);
 }
 
 // One edge as a whole aside of its place: nobody knows which, let alone whose end is astray.

@@ -66,6 +66,8 @@ TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
   EXPECT_TRUE(Warns(measured, "blades_asymmetric"));
   measured.scale.sheet.reset();  // a slanted view parts edges as well
   EXPECT_FALSE(Warns(measured, "blades_asymmetric"));
+  measured.blades.edges_part = true;
+  EXPECT_TRUE(Warns(measured, "blades_asymmetric"));
   EXPECT_FALSE(Warns(measured, "blades_bent"));
   measured.pivot.bent = true;
   EXPECT_TRUE(Warns(measured, "blades_bent"));
