@@ -185,9 +185,14 @@ void Doubt(LocatedEdge* edge, double off_px) {
 }
 
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
+  constexpr double kOff = 0.1;    // sigma, of how unlike they pass; over annotated photographs
   constexpr double kShare = 0.6;  // sigma, of the way to the other one
   if (!PassUnlike(pivot)) return;
   const double length_px = BladeLength(pivot, *blades);
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    double& sigma_px = blade->edge.common_sigma_px;
+    sigma_px = std::hypot(sigma_px, kOff * pivot.asymmetry * length_px);
+  }
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;

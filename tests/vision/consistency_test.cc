@@ -204,6 +204,19 @@ TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
 }
 
+TEST(DoubtUnlikeEdges, DoubtsBothByATenthOfHowUnlikeTheyPass) {
+  constexpr double kAsymmetry = 0.05, kShare = 0.1, kKnownPx = 0.5;
+  const double off_px = kShare * kAsymmetry * kLength;
+  Blades blades = BladesWithRivals(0, 0);
+  blades.upper.edge.common_sigma_px = kKnownPx;
+  DoubtUnlikeEdges(PivotSeen(kAsymmetry), &blades);
+  EXPECT_NEAR(blades.upper.edge.common_sigma_px, std::hypot(kKnownPx, off_px), 0.05 * off_px);
+  EXPECT_NEAR(blades.lower.edge.common_sigma_px, off_px, 0.05 * off_px);
+  Blades alike = BladesWithRivals(0, 0);
+  DoubtUnlikeEdges(PivotSeen(0.01), &alike);
+  EXPECT_EQ(alike.upper.edge.common_sigma_px, 0);
+}
+
 // A curve along x that goes over to another one so far beside it from a share of its length on, and
 // is known to a tenth of a pixel.
 LocatedBlade BladeThatChangesLines(double beside_px, double from_share) {
