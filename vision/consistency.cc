@@ -219,6 +219,15 @@ void DoubtKinkedEdges(Blades* blades) {
   }
 }
 
+void DoubtSofterEdge(Blades* blades) {
+  // Standard uncertainty per px of blur, over annotated photographs; rendered scenes need a third.
+  constexpr double kPerSofter = 1.2;
+  const double softer_px = blades->upper.edge.blur_px - blades->lower.edge.blur_px;
+  if (!std::isfinite(softer_px)) return;
+  LocatedEdge& edge = (softer_px > 0 ? blades->upper : blades->lower).edge;
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, kPerSofter * softer_px);
+}
+
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
   constexpr double kSharper = 0.7;  // of the blurs; of good edges in the sun 99 % exceed 0.78
   constexpr double kOffPx = 1;      // at least

@@ -58,9 +58,10 @@ void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
 [[nodiscard]] bool LieInNoPlane(double asymmetry);
 
 // Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
-// elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they would
-// if the other transition beside one of them were its border, that may well be so (a bright bevel on
-// a bright ground): such an edge becomes ambiguous, and less certain by 0.6 of the way there.
+// elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
+// would if the other transition beside one of them were its border, that may well be so (a bright
+// bevel on a bright ground): such an edge becomes ambiguous, and less certain by 0.6 of the way
+// there.
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
 
 // A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
@@ -68,6 +69,11 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
 // of it, another line was followed part of the way: the edge becomes ambiguous, and less certain by
 // twice as much. Throws Refused{kLowContrast} where the upper edge is off by 2 %.
 void DoubtKinkedEdges(Blades* blades);
+
+// Both edges lie about as far from the lens. One that looks softer than the other has another step
+// close by, as that to a narrow bevel, and may lie as far off: it becomes less certain by 1.2 times
+// as much as it is softer.
+void DoubtSofterEdge(Blades* blades);
 
 // Edges are as sharp as print at the same distance. What makes one look softer or sharper, light or
 // a shadow beside it, moves it by about as much. Much sharper than print, it is in doubt: another

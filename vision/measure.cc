@@ -259,6 +259,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   CutWhereEdgesPart(view, pivot, &parts.blades);
   DoubtKinkedEdges(&parts.blades);
   DoubtUnlikeEdges(pivot, &parts.blades);
+  DoubtSofterEdge(&parts.blades);
   DoubtUnlikePrint(scale, &parts.blades);
   AgreeOnEnds(scale, pivot, &parts.blades);
   for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) {

@@ -217,6 +217,30 @@ TEST(DoubtUnlikeEdges, DoubtsBothByATenthOfHowUnlikeTheyPass) {
   EXPECT_EQ(alike.upper.edge.common_sigma_px, 0);
 }
 
+TEST(DoubtSofterEdge, DoubtsTheSofterByAsMuchAndAFifth) {
+  constexpr double kSharpPx = 0.5, kSofterPx = 1, kKnownPx = 0.2, kPerSofter = 1.2;
+  for (const bool upper : {true, false}) {
+    Blades blades = BladesWithRivals(0, 0);
+    LocatedEdge& soft = (upper ? blades.upper : blades.lower).edge;
+    LocatedEdge& sharp = (upper ? blades.lower : blades.upper).edge;
+    soft.common_sigma_px = sharp.common_sigma_px = kKnownPx;
+    sharp.blur_px = kSharpPx;
+    soft.blur_px = kSharpPx + kSofterPx;
+    DoubtSofterEdge(&blades);
+    EXPECT_NEAR(soft.common_sigma_px, std::hypot(kKnownPx, kPerSofter * kSofterPx), 1e-9);
+    EXPECT_EQ(sharp.common_sigma_px, kKnownPx);
+  }
+}
+
+TEST(DoubtSofterEdge, LeavesEdgesOfWhichOneDoesNotTellItsBlur) {
+  Blades blades = BladesWithRivals(0, 0);
+  blades.upper.edge.blur_px = std::numeric_limits<double>::quiet_NaN();
+  blades.lower.edge.blur_px = 1;
+  DoubtSofterEdge(&blades);
+  EXPECT_EQ(blades.upper.edge.common_sigma_px, 0);
+  EXPECT_EQ(blades.lower.edge.common_sigma_px, 0);
+}
+
 // A curve along x that goes over to another one so far beside it from a share of its length on, and
 // is known to a tenth of a pixel.
 LocatedBlade BladeThatChangesLines(double beside_px, double from_share) {
