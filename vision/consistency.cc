@@ -86,6 +86,11 @@ bool PassUnlike(const Pivot& pivot) {
   return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
 }
 
+// Less certain by that much, standard.
+void AddSigma(LocatedEdge* edge, double off_px) {
+  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+}
+
 }  // namespace
 
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
@@ -181,7 +186,7 @@ bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 void Doubt(LocatedEdge* edge, double off_px) {
   constexpr double kDoubt = 0.75;  // ambiguity
   edge->ambiguity = std::max(edge->ambiguity, kDoubt);
-  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+  AddSigma(edge, off_px);
 }
 
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
@@ -190,11 +195,8 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   if (!PassUnlike(pivot)) return;
   const double length_px = BladeLength(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
-    double& sigma_px = blade->edge.common_sigma_px;
-    sigma_px = std::hypot(sigma_px, kOff * pivot.asymmetry * length_px);
-  }
-  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
+    AddSigma(&edge, kOff * pivot.asymmetry * length_px);
     const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
     if (!AreAlike(pivot.asymmetry + moved)) continue;
     Doubt(&edge, kShare * edge.rival_px);
@@ -224,8 +226,7 @@ void DoubtSofterEdge(Blades* blades) {
   constexpr double kPerSofter = 1.2;
   const double softer_px = blades->upper.edge.blur_px - blades->lower.edge.blur_px;
   if (!std::isfinite(softer_px)) return;
-  LocatedEdge& edge = (softer_px > 0 ? blades->upper : blades->lower).edge;
-  edge.common_sigma_px = std::hypot(edge.common_sigma_px, kPerSofter * softer_px);
+  AddSigma(&(softer_px > 0 ? blades->upper : blades->lower).edge, kPerSofter * softer_px);
 }
 
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
@@ -241,7 +242,7 @@ void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
     if (!std::isfinite(edge.unbound_blur_px)) continue;
     const double softer_px = edge.unbound_blur_px - *print_px;
     const double off_px = std::max(kPerSofter * softer_px, -kPerSharper * softer_px);
-    edge.common_sigma_px = std::hypot(edge.common_sigma_px, off_px);
+    AddSigma(&edge, off_px);
   }
 }
 

@@ -59,9 +59,9 @@ void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
 
 // Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
 // elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
-// would if the other transition beside one of them were its border, that may well be so (a bright
-// bevel on a bright ground): such an edge becomes ambiguous, and less certain by 0.6 of the way
-// there.
+// would mirror each other if the other transition beside one of them were its border, that may well
+// be so (a bright bevel on a bright ground): such an edge becomes ambiguous, and less certain by
+// 0.6 of the way there.
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
 
 // A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is

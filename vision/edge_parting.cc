@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -219,8 +218,8 @@ class Comparison {
   WasCut Cut(const Stretch& kept, const Stretch& parting, const Stretch& strays) {
     constexpr double kMost = 0.35;    // of an edge
     constexpr double kClearly = 1.5;  // times as far
-    for (const Profile& profile : {std::cref(upper_), std::cref(lower_)}) {
-      if (ShareBetween(profile, strays.from, strays.to) <= kMost) continue;
+    for (const Profile* profile : {&upper_, &lower_}) {
+      if (ShareBetween(*profile, strays.from, strays.to) <= kMost) continue;
       blades_.edges_part = true;
       return {};
     }
