@@ -152,10 +152,12 @@ void RefuseContestedHead(const Pivot& pivot) {
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
   constexpr double kMost = 0.07;   // of the length; blades photographed at a slant differ by 0.05
   constexpr double kPlain = 0.8;   // quality; lines on a mat that cross look like worse ones
-  const bool seen = pivot.source != "geometry";
+  const bool faint = pivot.screw && IsFaint(*pivot.screw);
+  const bool seen = pivot.source != "geometry" && !(scene.second_look && faint);
   const bool mirrored = std::abs(pivot.asymmetry) < kMost;
   const bool doubtful = scene.IsDoubtful() || (!seen && scene.quality < kPlain);
-  if (!doubtful || (seen && (mirrored || !scene.outlined))) return;
+  const bool must_mirror = scene.outlined || scene.second_look;
+  if (!doubtful || (seen && (mirrored || !must_mirror))) return;
   if (!scene.IsDoubtful()) {
     throw Refused(Reason::kAmbiguousPivot,
                   "pivot: no screw is seen, and the outline alone, as where the rings are out of the "

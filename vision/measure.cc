@@ -7,23 +7,16 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "vision/blade_frame.h"
-#include "vision/consistency.h"
-#include "vision/edge_debug.h"
-#include "vision/edge_pair.h"
-#include "vision/edge_parting.h"
-#include "vision/edge_relocation.h"
-#include "vision/end_pair.h"
-#include "vision/head_search.h"
 #include "vision/located_blade.h"
-#include "vision/mirror_line.h"
 #include "vision/opening.h"
 #include "vision/parallel.h"
 #include "vision/pivot.h"
-#include "vision/pivot_debug.h"
 #include "vision/scene.h"
+#include "vision/scissors.h"
 #include "vision/warnings.h"
 
 namespace bladecurve {
@@ -68,22 +61,6 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   return stored;
 }
 
-// The scene, and beside it, where that leaves a thread idle, the file's digest.
-struct Look {
-  Scene scene;
-  std::string sha256;
-};
-
-Look LookAt(const Photo& photo,
-            const std::vector<SeenMarker>& markers,
-            const StoredHints& hints,
-            StageLog* log) {
-  Look look;
-  ParallelAside([&] { look.scene = FindScene(photo, markers, hints, log); },
-                [&] { look.sha256 = photo.Sha256(); });
-  return look;
-}
-
 PlaneMap MapFor(const ScaleResult& scale,
                 const ScaleOptions& options,
                 const Pivot& pivot,
@@ -122,85 +99,6 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
   edges.correlation_length_mm = upper.edge.correlation_px * frame.mm_per_px();
   edges.common_offset_sigma_mm = shared_px * frame.mm_per_px();
   return edges;
-}
-
-Blades LocateAndTrim(const Photo& photo,
-                     const ScaleResult& scale,
-                     const Scene& scene,
-                     bool upper_on_left,
-                     StageLog* log) {
-  BladeEdges edges = LocateBlades(photo, scale, scene, upper_on_left);
-  if (log->wants_pictures()) {
-    log->Picture("edge-upper", DrawEdge(photo.grey(), edges.upper));
-    log->Picture("edge-lower", DrawEdge(photo.grey(), edges.lower));
-  }
-  Blades blades{{upper_on_left, std::move(edges.upper), {}, {}, {}},
-                {!upper_on_left, std::move(edges.lower), {}, {}, {}},
-                false};
-  TrimToFree(photo, scene, &blades.upper);
-  TrimToFree(photo, scene, &blades.lower);
-  log->Ran("edges", "full resolution along the blades only");
-  return blades;
-}
-
-// What the edges and the look at the joint give, which need nothing of each other.
-struct Parts {
-  Blades blades;
-  std::optional<Screw> at_joint;
-};
-
-Parts LocateParts(const Photo& photo,
-                  const ScaleResult& scale,
-                  const Scene& scene,
-                  const StoredHints& hints,
-                  bool upper_on_left,
-                  StageLog* log) {
-  Parts parts;
-  ParallelFor(2, [&](int part) {
-    if (part == 0) {
-      parts.blades = LocateAndTrim(photo, scale, scene, upper_on_left, log);
-    } else if (!hints.pivot_px) {
-      parts.at_joint = LookAtJoint(photo.grey(), scale, scene);
-    }
-  });
-  return parts;
-}
-
-Pivot LocatePivot(const Photo& photo,
-                  const ScaleResult& scale,
-                  const Scene& scene,
-                  const Parts& parts,
-                  const StoredHints& hints,
-                  StageLog* log) {
-  const PivotSearch search{
-      scene, PairOf(parts.blades.upper, parts.blades.lower), hints.pivot_px, parts.at_joint};
-  Pivot pivot = FindPivot(photo.grey(), scale, search);
-  if (log->wants_pictures()) log->Picture("pivot", DrawPivot(photo.grey(), scene, pivot));
-  log->Ran("pivot", pivot.source);
-  return pivot;
-}
-
-// Edges that contradict each other or the pivot: one of them may have been taken elsewhere, where
-// the view is known, or lost.
-void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* log) {
-  if (!KnowsMirror(view, *pivot) && !MayHaveLostOne(view, *pivot, *blades))
-    RefuseInconsistent(*pivot, *blades);
-  RelocateUnlikeEdges(view, pivot, blades);
-  RefuseInconsistent(*pivot, *blades);
-  if (!blades->upper.moved.empty()) log->Ran("upper-edge-again", blades->upper.moved);
-  if (!blades->lower.moved.empty()) log->Ran("lower-edge-again", blades->lower.moved);
-}
-
-// Where what was taken for the screw is none, the blades alone say where they turn.
-void DropFalseHead(const ScaleResult& scale,
-                   const Scene& scene,
-                   const Blades& blades,
-                   Pivot* pivot,
-                   StageLog* log) {
-  if (!IsFalseHead(*pivot, scale, blades)) return;
-  *pivot = PivotByBlades(scene, PairOf(blades.upper, blades.lower));
-  RefuseInconsistent(*pivot, blades);
-  log->Ran("pivot-again", "geometry: about the faint head the edges are no mirror images");
 }
 
 // Paths, ends and pivot as the viewer sees them, and the trend in mm.
@@ -245,36 +143,21 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const ScaleResult scale = FindScale(photo, options.scale);
   log.Ran("scale", scale.map ? scale.map->source() : "waits for the blades: --length-mm");
   const StoredHints hints = InStored(photo, options.hints);
-  const Look look = LookAt(photo, scale.markers, hints, &log);
-  const Scene& scene = look.scene;
+  std::optional<SceneFinder> finder;
+  std::string sha256;
+  ParallelAside([&] { finder.emplace(photo, scale.markers, hints, &log); },
+                [&] { sha256 = photo.Sha256(); });  // where finding leaves a thread idle
   const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
-  Parts parts = LocateParts(photo, scale, scene, hints, upper_on_left, &log);
-  Pivot pivot = LocatePivot(photo, scale, scene, parts, hints, &log);
-  const MirrorView view{photo, scale, scene};
-  Reconcile(view, &pivot, &parts.blades, &log);
-  DropFalseHead(scale, scene, parts.blades, &pivot, &log);
-  RefuseContestedHead(pivot);
-  RefuseUnlikeEdges(pivot, scale, parts.blades);
-  RefuseUnconfirmedScene(scene, pivot);
-  CutWhereEdgesPart(view, pivot, &parts.blades);
-  DoubtKinkedEdges(&parts.blades);
-  DoubtUnlikeEdges(pivot, &parts.blades);
-  DoubtSofterEdge(&parts.blades);
-  DoubtUnlikePrint(scale, &parts.blades);
-  AgreeOnEnds(scale, pivot, &parts.blades);
-  for (LocatedBlade* blade : {&parts.blades.upper, &parts.blades.lower}) {
-    KeepFree(scene, blade);
-    PlaceEndOnCourse(blade);
-  }
-  DoubtUnlikeEnds(pivot, &parts.blades);
-  const Blades& blades = parts.blades;
+  const Scissors scissors = LocateScissors({photo, scale, hints, upper_on_left}, &*finder, &log);
+  const Pivot& pivot = scissors.pivot;
+  const Blades& blades = scissors.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
   const BladeFrame frame(map, pivot.point_px, opening.x_in_plane, upper_on_left);
 
   PhotoMeasurement result;
   result.file = path.string();
-  result.sha256 = look.sha256;
+  result.sha256 = std::move(sha256);
   result.width = photo.displayed_width();
   result.height = photo.displayed_height();
   result.mm_per_px = frame.mm_per_px();
@@ -284,7 +167,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   result.edges.photo = result.file;
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
-  result.warnings = WarningsOf(scene, scale, map, pivot, blades);
+  result.warnings = WarningsOf(scissors.scene, scale, map, pivot, blades);
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();

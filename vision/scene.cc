@@ -192,22 +192,36 @@ void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
 
 }  // namespace
 
-Scene FindScene(const Photo& photo,
-                const std::vector<SeenMarker>& markers,
-                const StoredHints& hints,
-                StageLog* log) {
-  const LadderResult ladder = ClimbLadder(photo, markers, hints, log);
-  RefuseUnlessUsable(ladder, hints);
-  RefuseOtherInstruments(ladder.best, hints);
-  Scene scene = SceneFrom(ladder.best);
-  if (hints.pivot_px) {
-    scene.pivot_px = *hints.pivot_px;
+SceneFinder::SceneFinder(const Photo& photo,
+                         const std::vector<SeenMarker>& markers,
+                         const StoredHints& hints,
+                         StageLog* log)
+    : hints_(hints),
+      log_(log),
+      ladder_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log))) {
+  RefuseUnlessUsable(*ladder_, hints_);
+}
+
+SceneFinder::~SceneFinder() = default;
+
+Scene SceneFinder::Likeliest() const {
+  RefuseOtherInstruments(ladder_->best, hints_);
+  Scene scene = SceneFrom(ladder_->best);
+  scene.second_look = looked_again_;
+  if (hints_.pivot_px) {
+    scene.pivot_px = *hints_.pivot_px;
     scene.pivot_sigma_px = 1;
   }
   if (scene.IsDoubtful()) scene.warnings.push_back("scene_doubtful");
-  log->Ran("trace", "edges followed on the small picture");
-  if (log->wants_pictures()) log->Picture("scene", DrawScene(ladder.best, scene));
+  log_->Ran("trace", "edges followed on the small picture");
+  if (log_->wants_pictures()) log_->Picture("scene", DrawScene(ladder_->best, scene));
   return scene;
+}
+
+void SceneFinder::LookAgain() {
+  *ladder_ = WithoutMaskOfBest(std::move(*ladder_));
+  RefuseUnlessUsable(*ladder_, hints_);
+  looked_again_ = true;
 }
 
 }  // namespace bladecurve

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -36,10 +37,11 @@ struct Scene {
   double quality = 0;         // 0 to 1
   std::string method;         // the rung of the ladder that gave it
   bool outlined = false;  // by sharp lines alone, which may be those of a bevel or a hard shadow
+  bool second_look = false;  // what a likelier mask showed was refused
   std::vector<std::string> warnings;
 
   // Whether another silhouette may be as likely.
-  [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined; }
+  [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined || second_look; }
 };
 
 // Hints in stored pixels.
@@ -49,11 +51,32 @@ struct StoredHints {
   std::optional<Eigen::Vector2d> tips_direction;  // unit
 };
 
-// Climbs the ladder of methods, the cheap ones first, until the geometry is consistent. Throws
-// Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kOutOfPlane, kTooSmall}.
-[[nodiscard]] Scene FindScene(const Photo& photo,
-                              const std::vector<SeenMarker>& markers,
-                              const StoredHints& hints,
-                              StageLog* log);
+struct LadderResult;
+
+// Finds the scissors: in the likeliest mask or, where what that one shows proves to be no blades,
+// in another.
+class SceneFinder {
+ public:
+  // Climbs the ladder of methods, the cheap ones first, until the geometry is consistent. Throws
+  // Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kTooSmall}.
+  SceneFinder(const Photo& photo,
+              const std::vector<SeenMarker>& markers,
+              const StoredHints& hints,
+              StageLog* log);
+  ~SceneFinder();
+
+  // Throws Refused{kNotScissors, kSeveralScissors, kOutOfPlane}.
+  [[nodiscard]] Scene Likeliest() const;
+
+  // Drops the mask that showed the likeliest scene. Throws like the constructor where no other mask
+  // shows any.
+  void LookAgain();
+
+ private:
+  StoredHints hints_;
+  StageLog* log_;
+  std::unique_ptr<LadderResult> ladder_;
+  bool looked_again_ = false;
+};
 
 }  // namespace bladecurve

@@ -134,6 +134,42 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
   return result;
 }
 
+// Fills in what all rungs saw.
+LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
+  LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
+  log->Ran("scene-grey", "the cheapest look");
+  const bool grey_suffices = Consistent(result);
+  if (grey_suffices && !ShowsAnother(result.best)) {
+    log->Skipped("scene-colour", "grey gave a consistent scene");
+    return result;
+  }
+  const ColourPictures colour = SmallColour(view, kSmallSide);
+  Consider(ColourRung(view, colour), "rung-colour", all, log);
+  const LadderResult in_colour =
+      Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", all, log);
+  if (grey_suffices) {
+    log->Ran("scene-colour", "another thing lies beside the scissors");
+    result.several = result.several || in_colour.several;
+    return result;
+  }
+  result = in_colour;
+  log->Ran("scene-colour", "grey did not separate the blades");
+  if (Consistent(result)) {
+    log->Skipped("scene-flood", "colour gave a consistent scene");
+    return result;
+  }
+  const Outlines outlines = OutlinesIn(view);
+  result = Consider(FloodRung(view, outlines), "rung-flood", all, log);
+  log->Ran("scene-flood", "no threshold separates the blades");
+  if (ShowsWholeBlades(result)) {
+    log->Skipped("scene-regions", "the flood left blades dry");
+    return result;
+  }
+  result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
+  log->Ran("scene-regions", "the flood ran into the blades");
+  return result;
+}
+
 }  // namespace
 
 bool ShowsWholeBlades(const LadderResult& result) {
@@ -152,38 +188,18 @@ LadderResult ClimbLadder(const Photo& photo,
                       " px high or wide; use a larger photograph");
   }
   Rung all;
-  LadderResult result = Consider(GreyRung(view), "rung-grey", &all, log);
-  log->Ran("scene-grey", "the cheapest look");
-  const bool grey_suffices = Consistent(result);
-  if (grey_suffices && !ShowsAnother(result.best)) {
-    log->Skipped("scene-colour", "grey gave a consistent scene");
-    return result;
-  }
-  const ColourPictures colour = SmallColour(view, kSmallSide);
-  Consider(ColourRung(view, colour), "rung-colour", &all, log);
-  const LadderResult in_colour =
-      Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", &all, log);
-  if (grey_suffices) {
-    log->Ran("scene-colour", "another thing lies beside the scissors");
-    result.several = result.several || in_colour.several;
-    return result;
-  }
-  result = in_colour;
-  log->Ran("scene-colour", "grey did not separate the blades");
-  if (Consistent(result)) {
-    log->Skipped("scene-flood", "colour gave a consistent scene");
-    return result;
-  }
-  const Outlines outlines = OutlinesIn(view);
-  result = Consider(FloodRung(view, outlines), "rung-flood", &all, log);
-  log->Ran("scene-flood", "no threshold separates the blades");
-  if (ShowsWholeBlades(result)) {
-    log->Skipped("scene-regions", "the flood left blades dry");
-    return result;
-  }
-  result = Consider(RegionRung(view, outlines), "rung-regions", &all, log);
-  log->Ran("scene-regions", "the flood ran into the blades");
+  LadderResult result = Climb(view, &all, log);
+  result.seen = std::move(all.candidates);
   return result;
+}
+
+LadderResult WithoutMaskOfBest(LadderResult result) {
+  std::vector<Candidate> seen = std::move(result.seen);
+  std::erase_if(seen, [&](const Candidate& c) { return c.mask.data == result.best.mask.data; });
+  LadderResult next = Choose(seen);
+  next.closed = result.closed;
+  next.seen = std::move(seen);
+  return next;
 }
 
 }  // namespace bladecurve

@@ -17,6 +17,7 @@ struct LadderResult {
   Candidate best;        // quality 0 if nothing was found
   bool several = false;  // two good pairs in different places
   bool closed = false;   // something looks like closed scissors, in several masks of a rung
+  std::vector<Candidate> seen;
 };
 
 // Whether blades were found that could be measured.
@@ -28,5 +29,8 @@ struct LadderResult {
                                        const std::vector<SeenMarker>& markers,
                                        const StoredHints& hints,
                                        StageLog* log);
+
+// What the other masks show best, without climbing on.
+[[nodiscard]] LadderResult WithoutMaskOfBest(LadderResult result);
 
 }  // namespace bladecurve

@@ -133,6 +133,22 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
   EXPECT_NO_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(0.05)));
 }
 
+TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
+  Scene again;
+  again.quality = 0.95;
+  again.second_look = true;
+  Pivot inferred = PivotSeen(0), plain = PivotSeen(0), faint = PivotSeen(0);
+  inferred.source = "geometry";
+  plain.screw.emplace().evidence = kFaintHead + 1;
+  faint.screw.emplace().evidence = kFaintHead - 1;
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, plain));
+  EXPECT_THROW(RefuseUnconfirmedScene(again, faint), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(again, inferred), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(again, PivotSeen(0.1)), Refused);
+  again.second_look = false;
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, faint));
+}
+
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
   ScaleResult tilt_known, tilt_unknown;
   tilt_known.sheet.emplace();

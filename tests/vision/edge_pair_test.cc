@@ -46,7 +46,7 @@ struct Seen {
   explicit Seen(const SceneSpec& spec)
       : photo(Measured::PhotoOf(RenderScene(spec).bgr)), scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
-    scene = FindScene(photo, scale.markers, {}, &log);
+    scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
   }
 
   static ScaleOptions ScaleOf(const SceneSpec& spec) {

@@ -113,7 +113,7 @@ struct Measured {
         photo(PhotoOf(RenderScene(spec).bgr)),
         scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
-    scene = FindScene(photo, scale.markers, {}, &log);
+    scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
     for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();
     BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
     blades = {

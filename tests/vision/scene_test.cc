@@ -296,19 +296,19 @@ TEST(SeenIn, LooksForTheSharpEdgeBesideTheContour) {
   EXPECT_LT(quality(8), kAccepted);
 }
 
-TEST(FindScene, RefusesClosedScissorsByThatReason) {
+TEST(SceneFinder, RefusesClosedScissorsByThatReason) {
   SceneSpec spec = SmallScene();
   spec.theta_rad = -8 * kDegree;  // the edges have passed each other
   EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "closed");
 }
 
-TEST(FindScene, RefusesAnEmptySheet) {
+TEST(SceneFinder, RefusesAnEmptySheet) {
   SceneSpec spec = SmallScene();
   spec.with_scissors = false;
   EXPECT_EQ(ReasonFor(RenderScene(spec).bgr), "not_scissors");
 }
 
-TEST(FindScene, RefusesTipsThatAreCutOff) {
+TEST(SceneFinder, RefusesTipsThatAreCutOff) {
   const RenderedPhoto photo = RenderScene(SmallScene());
   const double tip = std::min(photo.truth.upper.end_px.x(), photo.truth.lower.end_px.x());
   const int width =
@@ -318,7 +318,7 @@ TEST(FindScene, RefusesTipsThatAreCutOff) {
 }
 
 // What is left of them ends inside the frame, as blades do.
-TEST(FindScene, TakesNoShanksForBladesWhoseTipsAreCutOff) {
+TEST(SceneFinder, TakesNoShanksForBladesWhoseTipsAreCutOff) {
   const RenderedPhoto photo = RenderScene(SmallScene());
   const double pivot = photo.truth.pivot_px.x();
   const double tip = std::min(photo.truth.upper.end_px.x(), photo.truth.lower.end_px.x());
@@ -330,7 +330,7 @@ TEST(FindScene, TakesNoShanksForBladesWhoseTipsAreCutOff) {
   EXPECT_NE(ReasonFor(picture, hints), "blades_not_visible") << "whoever says so is obeyed";
 }
 
-TEST(FindScene, RefusesTwoPairsOfScissors) {
+TEST(SceneFinder, RefusesTwoPairsOfScissors) {
   const cv::Mat one = RenderScene(SmallScene()).bgr;
   cv::Mat two;
   cv::vconcat(one, one, two);
@@ -338,7 +338,7 @@ TEST(FindScene, RefusesTwoPairsOfScissors) {
 }
 
 // As a ground as bright as itself swallows part of a blade.
-TEST(FindScene, RefusesTwoPairsOfWhichOneLostATip) {
+TEST(SceneFinder, RefusesTwoPairsOfWhichOneLostATip) {
   const RenderedPhoto photo = RenderScene(SmallScene());
   const Eigen::Vector2d& pivot = photo.truth.pivot_px;
   const double tip = photo.truth.upper.end_px.x();
@@ -516,7 +516,7 @@ cv::Mat SketchTurnedBy(double turn_rad) {
   return picture;
 }
 
-TEST(FindScene, RefusesBladesSetAtAnAngle) {
+TEST(SceneFinder, RefusesBladesSetAtAnAngle) {
   EXPECT_NE(ReasonFor(SketchTurnedBy(0)), "out_of_plane");
   for (const double turn_deg : {-40.0, 30.0})
     EXPECT_EQ(ReasonFor(SketchTurnedBy(turn_deg * kDegree)), "out_of_plane") << turn_deg;
@@ -535,7 +535,7 @@ TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
   EXPECT_EQ(ReasonFor(narrow.bgr, hints), "");
 }
 
-TEST(FindScene, MeasuresOnEveryBackdrop) {
+TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   for (const Backdrop backdrop : {Backdrop::kPaper,
                                   Backdrop::kCloth,
                                   Backdrop::kDrape,
@@ -550,14 +550,14 @@ TEST(FindScene, MeasuresOnEveryBackdrop) {
 }
 
 // The waist of open scissors is wider than the members that cross there.
-TEST(FindScene, TellsTheSameWidthOfMembersAtAnyOpening) {
+TEST(SceneFinder, TellsTheSameWidthOfMembersAtAnyOpening) {
   const auto width_at = [](double opening_deg) {
     SceneSpec spec = SmallScene();
     spec.theta_rad = opening_deg * kDegree;
     const fs::path file = ProcessFolder() / "picture.png";
     WritePng(file, RenderScene(spec).bgr);
     StageLog log(std::nullopt);
-    return FindScene(Photo::Load(file), {}, {}, &log).shank_width_px;
+    return SceneFinder(Photo::Load(file), {}, {}, &log).Likeliest().shank_width_px;
   };
   const double narrow = width_at(20);
   EXPECT_NEAR(width_at(50), narrow, 0.12 * narrow);
@@ -565,7 +565,7 @@ TEST(FindScene, TellsTheSameWidthOfMembersAtAnyOpening) {
 }
 
 // Thresholds see the blade without its bevel and agree on that; only the flood sees all of it.
-TEST(FindScene, SeesABevelAsBrightAsThePaper) {
+TEST(SceneFinder, SeesABevelAsBrightAsThePaper) {
   SceneSpec spec;
   spec.seed = 13;
   spec.camera.mm_per_px = 0.1;
