@@ -12,6 +12,7 @@
 #include <string>
 
 #include "process_folder.h"
+#include "small_scene.h"
 #include "vision/blades.h"
 #include "vision/catches.h"
 #include "vision/closed_shape.h"
@@ -48,14 +49,6 @@ std::string ReasonFor(const cv::Mat& picture, const SceneHints& hints = {}) {
   } catch (const Refused& refused) {
     return std::string(ReasonCode(refused.reason()));
   }
-}
-
-SceneSpec SmallScene() {
-  SceneSpec spec;
-  spec.width = 1000;
-  spec.height = 750;
-  spec.camera.mm_per_px = 0.25;
-  return spec;
 }
 
 // Lab picture of an even ground with a sharply outlined disc of the same colour on the left, and a

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "process_folder.h"
+#include "small_scene.h"
 #include "vision/measure.h"
 #include "vision/png_writer.h"
 #include "vision/refused.h"
@@ -25,14 +26,6 @@ fs::path Written(const SceneSpec& spec) {
   fs::path file = ProcessFolder() / "scissors.png";
   WritePng(file, RenderScene(spec).bgr);
   return file;
-}
-
-SceneSpec SmallScene() {
-  SceneSpec spec;
-  spec.width = 1000;
-  spec.height = 750;
-  spec.camera.mm_per_px = 0.25;
-  return spec;
 }
 
 TEST(SceneFinder, ShowsTheSameScissorsInAnotherMask) {
