@@ -17,7 +17,7 @@ struct LadderResult {
   Candidate best;        // quality 0 if nothing was found
   bool several = false;  // two good pairs in different places
   bool closed = false;   // something looks like closed scissors, in several masks of a rung
-  std::vector<Candidate> seen;
+  std::vector<Candidate> seen;  // by all rungs, the best among them
 };
 
 // Whether blades were found that could be measured.
