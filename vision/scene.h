@@ -35,7 +35,7 @@ struct Scene {
   double path_sigma_px = 0;   // how far off the paths may be
   double quality = 0;         // 0 to 1
   std::string method;         // the rung of the ladder that gave it
-  bool outlined = false;      // by sharp lines alone, which may be those of a bevel or a hard shadow
+  bool outlined = false;  // by sharp lines alone, which may be those of a bevel or a hard shadow
   bool second_look = false;  // what a likelier mask showed was refused
   std::vector<std::string> warnings;
 
