@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>

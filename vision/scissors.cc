@@ -83,7 +83,7 @@ void DropFalseHead(const MirrorView& view, const Blades& blades, Pivot* pivot, S
   log->Ran("pivot-again", "geometry: about the faint head the edges are no mirror images");
 }
 
-// Warns of what the parts say of each other, or refuses.
+// What the parts say of each other: refusals, what is cut off, and doubts.
 void CheckAgainstEachOther(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   RefuseContestedHead(pivot);
   RefuseUnlikeEdges(pivot, view.scale, *blades);

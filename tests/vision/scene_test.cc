@@ -10,9 +10,10 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <vector>
 
+#include "measured_blades.h"
 #include "process_folder.h"
-#include "small_scene.h"
 #include "vision/blades.h"
 #include "vision/catches.h"
 #include "vision/closed_shape.h"
@@ -49,6 +50,14 @@ std::string ReasonFor(const cv::Mat& picture, const SceneHints& hints = {}) {
   } catch (const Refused& refused) {
     return std::string(ReasonCode(refused.reason()));
   }
+}
+
+SceneSpec SmallScene() {
+  SceneSpec spec;
+  spec.width = 1000;
+  spec.height = 750;
+  spec.camera.mm_per_px = 0.25;
+  return spec;
 }
 
 // Lab picture of an even ground with a sharply outlined disc of the same colour on the left, and a
@@ -542,15 +551,42 @@ TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   }
 }
 
+TEST(SceneFinder, ShowsTheSameScissorsInAnotherMask) {
+  const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
+  StageLog log;
+  SceneFinder finder(photo, {}, {}, &log);
+  const Scene likeliest = finder.Likeliest();
+  finder.LookAgain();
+  const Scene again = finder.Likeliest();
+  EXPECT_FALSE(likeliest.IsDoubtful());
+  EXPECT_TRUE(again.second_look && again.IsDoubtful());
+  EXPECT_EQ(again.warnings, std::vector<std::string>{"scene_doubtful"});
+  const double near_px = 0.2 * (likeliest.left.tip_px - likeliest.pivot_px).norm();
+  EXPECT_LT((again.pivot_px - likeliest.pivot_px).norm(), near_px);
+  EXPECT_LT((again.left.tip_px - likeliest.left.tip_px).norm(), near_px);
+  EXPECT_LT((again.right.tip_px - likeliest.right.tip_px).norm(), near_px);
+}
+
+TEST(SceneFinder, LooksUntilNoMaskIsLeft) {
+  const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
+  StageLog log;
+  SceneFinder finder(photo, {}, {}, &log);
+  constexpr int kMoreThanThereAre = 1000;
+  EXPECT_THROW(
+      {
+        for (int look = 0; look < kMoreThanThereAre; ++look) finder.LookAgain();
+      },
+      Refused);
+}
+
 // The waist of open scissors is wider than the members that cross there.
 TEST(SceneFinder, TellsTheSameWidthOfMembersAtAnyOpening) {
   const auto width_at = [](double opening_deg) {
     SceneSpec spec = SmallScene();
     spec.theta_rad = opening_deg * kDegree;
-    const fs::path file = ProcessFolder() / "picture.png";
-    WritePng(file, RenderScene(spec).bgr);
-    StageLog log(std::nullopt);
-    return SceneFinder(Photo::Load(file), {}, {}, &log).Likeliest().shank_width_px;
+    const Photo photo = testing::Measured::PhotoOf(RenderScene(spec).bgr);
+    StageLog log;
+    return SceneFinder(photo, {}, {}, &log).Likeliest().shank_width_px;
   };
   const double narrow = width_at(20);
   EXPECT_NEAR(width_at(50), narrow, 0.12 * narrow);
