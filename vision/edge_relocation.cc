@@ -343,10 +343,12 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
-    // A slanted view may part them as well; but then nothing is seen where they would agree.
+    // A slanted view may part them as well; but then nothing is seen where they would agree. What
+    // is told of the upper edge must be seen: the other one, mirrored, is as wrong as the slant.
     if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
     if (RelocateShadowedOne(view, pivot, blades)) return;
-    if (!IsClear(InnerOne(pivot, blades).blade.edge))
+    const LocatedBlade& inner = InnerOne(pivot, blades).blade;
+    if (&inner == &blades->lower && !IsClear(inner.edge))
       TraceInnerOne(view, LineBetween(view, pivot, *blades), pivot, blades);
     return;
   }

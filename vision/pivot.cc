@@ -54,6 +54,7 @@ double SigmasApart(const Pivot& a, const Pivot& b) {
 void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
   pivot->bent = pivot->source != "geometry" && AreBentToOneSide(search.edges, pivot->point_px);
   pivot->asymmetry = pivot->bent ? 0 : EdgeAsymmetry(search.edges, pivot->point_px);
+  pivot->unlikeness = pivot->bent ? 0 : EdgeUnlikeness(search.edges, pivot->point_px);
   const Estimate overlap = OverlapSeen(*pivot, search, mirror);
   pivot->overlap = overlap.value;
   pivot->overlap_sigma = overlap.sigma;

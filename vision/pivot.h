@@ -22,6 +22,7 @@ struct Pivot {
   Eigen::Matrix2d covariance_px2;
   std::string source;                     // "screw", "geometry", "hint"
   double asymmetry = 0;                   // see EdgeAsymmetry; 0 if bent
+  double unlikeness = 0;                  // see EdgeUnlikeness; 0 if bent
   bool bent = false;                      // see AreBentToOneSide
   double overlap = 0, overlap_sigma = 0;  // see EdgeOverlap
   double off_geometry = 0;     // standard uncertainties from where the blades alone put it

@@ -67,6 +67,18 @@ EdgeAboutLine EdgeAbout(const std::vector<Vector2d>& edge,
   return about;
 }
 
+constexpr std::size_t kFewestAbreast = 60;  // points; fewer show no course
+
+// About the line between the edges' ends, over the length of the blades.
+EdgeGap GapAbout(const EdgePair& edges, const Vector2d& pivot_px) {
+  const Vector2d left = edges.left_px.back() - pivot_px, right = edges.right_px.back() - pivot_px;
+  const double length_px = std::max(1.0, 0.5 * (left.norm() + right.norm()));
+  const Vector2d direction = (left.normalized() + right.normalized()).normalized();
+  const double side = std::copysign(1.0, Cross(direction, left));
+  return GapBetween(EdgeAbout(edges.left_px, pivot_px, direction, side, length_px),
+                    EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px));
+}
+
 // A gap as a polynomial, from the line's zero.
 struct FittedGap {
   GapCourse course;
@@ -138,18 +150,12 @@ double EdgeAsymmetry(const EdgePair& edges, const Vector2d& pivot_px) {
 }
 
 bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
-  constexpr std::size_t kFewest = 60;             // points abreast of each other
   constexpr double kLeast = 0.006;                // of the length; less is how blades are made
   constexpr double kCloser = 1.0 / 3;             // of the scatter about a straight line
   constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola
   constexpr double kBehind = -0.05, kHeel = 0.3;  // of the length, from the pivot
-  const Vector2d left = edges.left_px.back() - pivot_px, right = edges.right_px.back() - pivot_px;
-  const double length_px = std::max(1.0, 0.5 * (left.norm() + right.norm()));
-  const Vector2d direction = (left.normalized() + right.normalized()).normalized();
-  const double side = std::copysign(1.0, Cross(direction, left));
-  const EdgeGap gap = GapBetween(EdgeAbout(edges.left_px, pivot_px, direction, side, length_px),
-                                 EdgeAbout(edges.right_px, pivot_px, direction, -side, length_px));
-  if (gap.along.size() < kFewest) return false;
+  const EdgeGap gap = GapAbout(edges, pivot_px);
+  if (gap.along.size() < kFewestAbreast) return false;
   const FittedGap straight = FitAllOf(gap, 2), bent = FitAllOf(gap, 3);
   const double square = bent.course.powers[2];
   if (std::abs(square) < kLeast || bent.scatter > std::min(kCloser * straight.scatter, kSmooth))
@@ -157,6 +163,11 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   // By the line's choice the edges are alike at the ends, the other root is where the bend begins.
   const double begins = bent.course.powers[0] / square;
   return begins > kBehind && begins < kHeel;
+}
+
+double EdgeUnlikeness(const EdgePair& edges, const Vector2d& pivot_px) {
+  const EdgeGap gap = GapAbout(edges, pivot_px);
+  return gap.along.size() < kFewestAbreast ? 0 : FitAllOf(gap, 2).scatter;
 }
 
 double EdgeOverlap(const EdgePair& edges, const Vector2d& pivot_px) {

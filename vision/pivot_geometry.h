@@ -34,6 +34,11 @@ struct EdgeMirror {
 // that is something else's border parts from its place otherwise.
 [[nodiscard]] bool AreBentToOneSide(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
+// How unlike the two edges are in shape: root mean square of what their distances from the line
+// between their ends differ by, over the length of the blades, but for a straight line, which is
+// all that a pivot aside or a slanted view adds. 0 where too little of them lies abreast.
+[[nodiscard]] double EdgeUnlikeness(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
+
 // How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two
 // distances over the length of the blades. Blades that shear overlap by 0.055 to 0.125 (Mayo,
 // Metzenbaum, iris; straight and curved); the jaws of clamps, forceps and needle holders meet, and

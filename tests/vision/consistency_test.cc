@@ -145,6 +145,8 @@ TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   EXPECT_THROW(RefuseUnconfirmedScene(again, faint), Refused);
   EXPECT_THROW(RefuseUnconfirmedScene(again, inferred), Refused);
   EXPECT_THROW(RefuseUnconfirmedScene(again, PivotSeen(0.1)), Refused);
+  plain.unlikeness = 0.02;
+  EXPECT_THROW(RefuseUnconfirmedScene(again, plain), Refused);
   again.second_look = false;
   EXPECT_NO_THROW(RefuseUnconfirmedScene(again, faint));
 }

@@ -242,29 +242,40 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAWideShadowWithoutMarkers) {
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
-TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMarkers) {
-  constexpr double kClosePx = 0.5, kWarned = 0.5;
+// Beside the blade at the truth's upper edge, which is measured as the lower one.
+Measured WithMirroringBevelBelow() {
   const SceneSpec spec = SceneWithMarkers();
   Measured measured{spec};
   measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
   measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
   measured.scale.sheet.reset();
+  measured.TurnOver();
+  return measured;
+}
+
+TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMarkers) {
+  constexpr double kClosePx = 0.5, kWarned = 0.5;
+  Measured measured = WithMirroringBevelBelow();
   Relocate(&measured);
-  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
-  EXPECT_GT(measured.blades.upper.edge.ambiguity, kWarned);
+  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.lower.used), kClosePx);
+  EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
+}
+
+// The curve that is told of the blade is not the other one's.
+TEST(RelocateUnlikeEdges, TakesNoFaintStepForTheUpperEdgeWithoutMarkers) {
+  Measured measured = WithMirroringBevelBelow();
+  measured.TurnOver();
+  Relocate(&measured);
+  EXPECT_EQ(measured.blades.upper.moved, "");
 }
 
 // What parts them may be the pivot then.
 TEST(RelocateUnlikeEdges, TakesNoFaintStepForEdgesThatDifferByLessThanThePivotIsSure) {
   constexpr double kVaguePx = 10;
-  const SceneSpec spec = SceneWithMarkers();
-  Measured measured{spec};
-  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
-  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
-  measured.scale.sheet.reset();
+  Measured measured = WithMirroringBevelBelow();
   measured.pivot.covariance_px2 *= kVaguePx * kVaguePx;
   Relocate(&measured);
-  EXPECT_EQ(measured.blades.upper.moved, "");
+  EXPECT_EQ(measured.blades.lower.moved, "");
 }
 
 // Beside the upper edge a line is drawn on the ground, faintly, where the other blade puts that
@@ -288,14 +299,10 @@ TEST(RelocateUnlikeEdges, TakesNoVaguerEdgeWherePivotsThatLieAsideMayPutIt) {
 
 // An oblique view parts clear edges as well.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
-  const SceneSpec spec = SceneWithMarkers();
-  Measured measured{spec};
-  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
-  Measured::MakeClear(&measured.blades.upper);
-  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
-  measured.scale.sheet.reset();
+  Measured measured = WithMirroringBevelBelow();
+  Measured::MakeClear(&measured.blades.lower);
   Relocate(&measured);
-  EXPECT_EQ(measured.blades.upper.moved, "");
+  EXPECT_EQ(measured.blades.lower.moved, "");
 }
 
 // Where the other edge is clear and this one is not: a trace that strayed into a ragged shadow.

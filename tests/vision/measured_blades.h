@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "process_folder.h"
@@ -126,9 +127,11 @@ struct Measured {
   }
 
   void Compare() {
-    pivot.asymmetry =
-        EdgeAsymmetry({PointsOf(blades.upper), PointsOf(blades.lower)}, pivot.point_px);
+    pivot.asymmetry = EdgeAsymmetry(PairOf(blades.upper, blades.lower), pivot.point_px);
   }
+
+  // As if the other side of the scissors were up.
+  void TurnOver() { std::swap(blades.upper, blades.lower); }
 
   // As if nothing beside the edge looked like a border.
   static void MakeClear(LocatedBlade* blade) {

@@ -102,6 +102,24 @@ TEST(AreBentToOneSide, SeesNoneWhereOneEdgeIsAnotherLine) {
   EXPECT_FALSE(aside([](double back) { return back < 0.3 ? 0.02 : 0; }));
 }
 
+TEST(EdgeUnlikeness, TellsABowFromAPivotAsideAndASlantedView) {
+  constexpr double kAlike = 0.001, kBow = 0.06, kFrom = 0.12, kSlant = 0.1;
+  const EdgePair edges = Edges(30 * kDegree, 0.08);
+  EXPECT_LT(EdgeUnlikeness(edges, kPivot), kAlike);
+  EXPECT_LT(EdgeUnlikeness(edges, kPivot + Vector2d(0, 0.05 * kLength)), kAlike);
+  EdgePair slanted = edges, bowed = edges;
+  for (std::vector<Vector2d>* edge : {&slanted.left_px, &slanted.right_px}) {
+    for (Vector2d& p : *edge) p += kSlant * Vector2d((p - kPivot).y(), 0);
+  }
+  EXPECT_LT(EdgeUnlikeness(slanted, kPivot), kAlike);
+  bowed.left_px = Bent(edges, kBow, kFrom).left_px;
+  const double seen = (1 - (edges.left_px.front() - kPivot).norm() / kLength) / (1 - kFrom);
+  const double parabola = 4 * kBow * seen * seen / std::sqrt(180.0);  // about its best line
+  EXPECT_NEAR(EdgeUnlikeness(bowed, kPivot), parabola, 0.1 * parabola);
+  bowed.left_px.resize(10);
+  EXPECT_EQ(EdgeUnlikeness(bowed, kPivot), 0);
+}
+
 TEST(MirrorOf, FindsWhereTheEdgesCrossAndTheirLine) {
   constexpr double kClose = 0.02;  // px
   const EdgeMirror mirror = MirrorOf(Edges(30 * kDegree, 0.08));
