@@ -43,8 +43,8 @@ void RefuseContestedHead(const Pivot& pivot);
 
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms
 // it: where blades were told from their ground by sharp lines alone, or at a second look, the edges
-// mirror each other about it, in shape as well, and a second look needs more than a faint head. Where none is seen the
-// scene must be plainer: else Refused{kAmbiguousPivot}.
+// mirror each other about it, in shape as well, and a second look needs more than a faint head.
+// Where none is seen the scene must be plainer: else Refused{kAmbiguousPivot}.
 void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
 
 // Whether the edges of two blades in one plane pass the pivot so differently that one of them is in
