@@ -152,8 +152,20 @@ bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
   return !AreSuspect(AsymmetryAbout(screw, known));
 }
 
-// The same as far as the view is known. A slanted one parts edges as well, but hardly so much about
-// what is too flat for a head.
+// Whether they would about a place as near to it as it is known. One that lies aside adds to one
+// edge's distance and takes from the other's.
+bool MirrorNear(const Screw& screw, const HeadSearch& known) {
+  if (!known.scale.sheet) return MirrorAbout(screw, known);
+  const PlacePx foot = FootBelow(screw, known.scale, known.scene);
+  const double length_px = 0.5 * ((known.edges.left_px.back() - foot.point_px).norm() +
+                                  (known.edges.right_px.back() - foot.point_px).norm());
+  const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
+  const double asymmetry = std::abs(EdgeAsymmetry(known.edges, foot.point_px));
+  return !AreSuspect(std::max(0.0, asymmetry - by_place));
+}
+
+// Whether they mirror each other as far as the view is known. A slanted one parts edges as well,
+// but hardly so much about what is too flat for a head.
 bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
   constexpr double kSlanted = 0.1;
   if (known.scale.sheet) return MirrorAbout(screw, known);
@@ -179,11 +191,13 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
 // wider or a smaller one; a half-lit one. Necks of members and engraved marks are round, too, but
 // less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
-  constexpr double kUnmistakable = 25, kFaint = 5;
+  // In a known view nothing is lightly taken about which edges mirror each other.
+  constexpr double kUnmistakable = 25, kFaint = 5, kFaintInKnownView = 3.5;
+  const double faintest = known.scale.sheet ? kFaintInKnownView : kFaint;
   const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
-  if (forward && (forward->evidence > kBeyondDoubt || MirrorAbout(*forward, known))) return forward;
+  if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
-    if (screw.evidence > kFaintHead || MirrorAbout(screw, known)) return true;
+    if (screw.evidence > kFaintHead || MirrorNear(screw, known)) return true;
     return screw.slot && screw.slot->ends_seen && MayMirrorAbout(screw, known);
   };
   std::optional<Screw> clearest;
@@ -191,7 +205,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     return !clearest || screw.evidence > clearest->evidence;
   };
   for (const std::optional<Screw>& screw :
-       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, kFaint))) {
+       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, faintest))) {
     if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
   }
   if (clearest) return clearest;
@@ -199,11 +213,11 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
        {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
     const auto other = FindHere(known, search);
     if (!other || !is_clearer(*other)) continue;
-    if (other->evidence > kUnmistakable || MirrorAbout(*other, known)) clearest = other;
+    if (other->evidence > kUnmistakable || MirrorNear(*other, known)) clearest = other;
   }
   if (clearest) return clearest;
   const auto half = FindHere(known, SearchHalfLit(known));
-  return half && MirrorAbout(*half, known) ? half : std::nullopt;
+  return half && MirrorNear(*half, known) ? half : std::nullopt;
 }
 
 }  // namespace
@@ -216,8 +230,10 @@ std::optional<Screw> LookAtJoint(const cv::Mat& grey,
 
 std::optional<Screw> FindHead(const HeadSearch& search) {
   const std::optional<Screw> seen = LookForScrew(search);
-  const bool doubtful = !seen || (IsFaint(*seen) && !MayMirrorAbout(*seen, search));
-  return doubtful ? LookFurther(search) : seen;
+  if (seen && (!IsFaint(*seen) || MayMirrorAbout(*seen, search))) return seen;
+  const std::optional<Screw> further = LookFurther(search);
+  if (further || !seen || !search.scale.sheet) return further;
+  return MirrorNear(*seen, search) ? seen : std::nullopt;
 }
 
 }  // namespace bladecurve

@@ -95,6 +95,25 @@ TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
   EXPECT_EQ(found().source, "geometry");
 }
 
+// Where the view is not known the edges may mirror each other about anything.
+TEST(FindPivot, TakesAFainterHeadInAKnownView) {
+  constexpr double kClosePx = 1.5, kLeastInUnknownView = 5;
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.screw_radius_mm = 1.2;
+  spec.sensor.noise_grey = 2.5;
+  const Measured measured{spec};
+  const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
+  const PivotSearch search{
+      scene, PairOf(measured.blades.upper, measured.blades.lower), std::nullopt};
+  const Pivot pivot = FindPivot(measured.photo.grey(), measured.scale, search);
+  ASSERT_TRUE(pivot.screw);
+  EXPECT_LT(pivot.screw->evidence, kLeastInUnknownView);
+  EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+  ScaleResult unknown_view = measured.scale;
+  unknown_view.sheet.reset();
+  EXPECT_EQ(FindPivot(measured.photo.grey(), unknown_view, search).source, "geometry");
+}
+
 TEST(LookAtJoint, TakesNoFaintRoundThroughACrotchForAHead) {
   SceneSpec spec = SceneWithMarkers();
   spec.scissors.screw_radius_mm = 1.65;
@@ -143,22 +162,48 @@ TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther)
   EXPECT_GT(off_px(in_line), 0.8 * kFarPx);  // the edges have nothing against it
 }
 
-// The head gone, but for a bright arc of a rim about a place, as a low light leaves of it.
-cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px) {
-  constexpr double kRadiusPx = 10, kHeadPx = 14, kArcDeg = 215, kGlint = 230;
+constexpr int kFractionBits = 6;  // of a pixel, in drawings
+int Fixed(double px) { return static_cast<int>(std::lround(std::ldexp(px, kFractionBits))); }
+cv::Point Fixed(const Vector2d& at) { return {Fixed(at.x()), Fixed(at.y())}; }
+
+cv::Mat WithoutHead(const Measured& measured) {
+  constexpr double kHeadPx = 14;
   constexpr int kBroaderThanHead = 41;
-  constexpr int kFractionBits = 6;
   cv::Mat grey = measured.photo.grey().clone(), metal, head(grey.size(), CV_8U, cv::Scalar(0));
-  const auto fixed = [](double px) {
-    return static_cast<int>(std::lround(std::ldexp(px, kFractionBits)));
-  };
-  const auto point = [&](const Vector2d& at) { return cv::Point(fixed(at.x()), fixed(at.y())); };
-  const int line = cv::LINE_AA, shift = kFractionBits;
-  cv::circle(head, point(measured.truth.screw_px), fixed(kHeadPx), 255, cv::FILLED, line, shift);
+  cv::circle(head,
+             Fixed(measured.truth.screw_px),
+             Fixed(kHeadPx),
+             255,
+             cv::FILLED,
+             cv::LINE_AA,
+             kFractionBits);
   cv::medianBlur(grey, metal, kBroaderThanHead);
   metal.copyTo(grey, head);
-  const cv::Size axes(fixed(kRadiusPx), fixed(kRadiusPx));
-  cv::ellipse(grey, point(center_px), axes, 0, 0, kArcDeg, kGlint, 2, line, shift);
+  return grey;
+}
+
+TEST(FindPivot, TakesAFaintHeadNearALineAboutWhichTheEdgesMirrorEachOther) {
+  constexpr double kAsidePx = 4;
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const Vector2d& axis = measured.truth.axis_px;
+  const auto source = [&](double sigma_px) {
+    Screw screw = HeadAside(measured, kFaintHead - 1);
+    screw.center_px = measured.truth.screw_px + kAsidePx * Vector2d(-axis.y(), axis.x());
+    screw.covariance_px2 *= sigma_px * sigma_px;
+    const PivotSearch search{measured.scene, edges, std::nullopt, screw};
+    return FindPivot(WithoutHead(measured), measured.scale, search).source;
+  };
+  EXPECT_EQ(source(0.1 * kAsidePx), "geometry");
+  EXPECT_EQ(source(1.2 * kAsidePx), "screw");
+}
+
+// The head gone, but for a bright arc of a rim about a place, as a low light leaves of it.
+cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px) {
+  constexpr double kRadiusPx = 10, kArcDeg = 215, kGlint = 230;
+  cv::Mat grey = WithoutHead(measured);
+  const cv::Size axes(Fixed(kRadiusPx), Fixed(kRadiusPx));
+  cv::ellipse(grey, Fixed(center_px), axes, 0, 0, kArcDeg, kGlint, 2, cv::LINE_AA, kFractionBits);
   return grey;
 }
 
