@@ -139,11 +139,12 @@ void RefuseEdgesShortOfPivot(const Pivot& pivot) {
                 "or a shadow hides that edge: use another background or light");
 }
 
-void RefuseContestedHead(const Pivot& pivot) {
+void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale) {
   constexpr double kFar = 2.5;       // standard uncertainties
   constexpr double kMostOfNone = 8;  // evidence; beyond, nothing was taken for a head falsely
   if (!pivot.screw || !IsFaint(*pivot.screw) || pivot.screw->evidence > kMostOfNone) return;
-  if (pivot.off_geometry < kFar) return;
+  const bool mirrored = scale.sheet && !pivot.bent && !AreSuspect(pivot.asymmetry);
+  if (pivot.off_geometry < kFar || mirrored) return;
   throw Refused(Reason::kAmbiguousPivot,
                 "pivot: something round is faintly seen, but far from where the blades put the "
                 "pivot; say where it is: --pivot X,Y; or light the screw");

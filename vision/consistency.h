@@ -38,8 +38,9 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blade
 // is seen: those of blades that cut cross it on the other blade's side.
 void RefuseEdgesShortOfPivot(const Pivot& pivot);
 
-// Throws Refused{kAmbiguousPivot} where a faint head lies far from where the blades put the pivot.
-void RefuseContestedHead(const Pivot& pivot);
+// Throws Refused{kAmbiguousPivot} where a faint head lies far from where the blades put the pivot,
+// unless the edges, seen from a known side, mirror each other about it.
+void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale);
 
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms
 // it: where blades were told from their ground by sharp lines alone, or at a second look, the edges

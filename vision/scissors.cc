@@ -85,7 +85,7 @@ void DropFalseHead(const MirrorView& view, const Blades& blades, Pivot* pivot, S
 
 // What the parts say of each other: refusals, what is cut off, and doubts.
 void CheckAgainstEachOther(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  RefuseContestedHead(pivot);
+  RefuseContestedHead(pivot, view.scale);
   RefuseUnlikeEdges(pivot, view.scale, *blades);
   RefuseUnconfirmedScene(view.scene, pivot);
   CutWhereEdgesPart(view, pivot, blades);

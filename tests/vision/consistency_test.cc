@@ -75,20 +75,36 @@ TEST(RefuseInconsistent, TakesNoWhiteBladeOnWhiteForAnAngledOneOrAJaw) {
 }
 
 TEST(RefuseContestedHead, SpeaksUpWhereAFaintHeadLiesFarFromWhereTheBladesPutThePivot) {
+  const ScaleResult tilt_unknown;
   Pivot pivot = PivotSeen(0);
   pivot.off_geometry = 4;
-  EXPECT_NO_THROW(RefuseContestedHead(pivot)) << "a hint";
+  EXPECT_NO_THROW(RefuseContestedHead(pivot, tilt_unknown)) << "a hint";
   Screw screw;
   screw.center_px.setZero();
   screw.covariance_px2.setIdentity();
   screw.evidence = 5;
   pivot.screw = screw;
-  EXPECT_THROW(RefuseContestedHead(pivot), Refused);
+  EXPECT_THROW(RefuseContestedHead(pivot, tilt_unknown), Refused);
   pivot.off_geometry = 2;
-  EXPECT_NO_THROW(RefuseContestedHead(pivot));
+  EXPECT_NO_THROW(RefuseContestedHead(pivot, tilt_unknown));
   pivot.off_geometry = 4;
   pivot.screw->evidence = 9;
-  EXPECT_NO_THROW(RefuseContestedHead(pivot)) << "clearly seen";
+  EXPECT_NO_THROW(RefuseContestedHead(pivot, tilt_unknown)) << "clearly seen";
+}
+
+TEST(RefuseContestedHead, LeavesOneAboutWhichEdgesSeenFromAKnownSideMirrorEachOther) {
+  ScaleResult tilt_known;
+  tilt_known.sheet.emplace();
+  Pivot pivot = PivotSeen(0.005);
+  pivot.off_geometry = 4;
+  pivot.screw.emplace().evidence = 5;
+  EXPECT_NO_THROW(RefuseContestedHead(pivot, tilt_known));
+  EXPECT_THROW(RefuseContestedHead(pivot, {}), Refused);
+  pivot.asymmetry = 0.02;
+  EXPECT_THROW(RefuseContestedHead(pivot, tilt_known), Refused);
+  pivot.asymmetry = 0;
+  pivot.bent = true;  // no mirror images
+  EXPECT_THROW(RefuseContestedHead(pivot, tilt_known), Refused);
 }
 
 TEST(RefuseEdgesShortOfPivot, SpeaksUpWhereOneEdgeDoesNotReachAScrewThatIsSeen) {
