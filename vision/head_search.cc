@@ -191,7 +191,7 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
 // wider or a smaller one; a half-lit one. Necks of members and engraved marks are round, too, but
 // less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
-  // In a known view nothing is lightly taken about which edges mirror each other.
+  // Where the view is known, edges mirror each other about few false heads.
   constexpr double kUnmistakable = 25, kFaint = 5, kFaintInKnownView = 3.5;
   const double faintest = known.scale.sheet ? kFaintInKnownView : kFaint;
   const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
@@ -232,8 +232,7 @@ std::optional<Screw> FindHead(const HeadSearch& search) {
   const std::optional<Screw> seen = LookForScrew(search);
   if (seen && (!IsFaint(*seen) || MayMirrorAbout(*seen, search))) return seen;
   const std::optional<Screw> further = LookFurther(search);
-  if (further || !seen || !search.scale.sheet) return further;
-  return MirrorNear(*seen, search) ? seen : std::nullopt;
+  return !further && seen && MirrorNear(*seen, search) ? seen : further;
 }
 
 }  // namespace bladecurve

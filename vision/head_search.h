@@ -31,7 +31,8 @@ struct HeadSearch {
 
 // The head of the screw or rivet. How obliquely it is seen the markers say, where there are any.
 // Where a faint head leaves the edges far unlike, one beyond doubt elsewhere is taken about which
-// they mirror each other; where none is seen, also a half-lit one about which they do.
+// they mirror each other; where none is seen, also a half-lit one about which they do, or the faint
+// one itself, if they do so as near to it as it is known.
 [[nodiscard]] std::optional<Screw> FindHead(const HeadSearch& search);
 
 }  // namespace bladecurve
