@@ -67,8 +67,6 @@ EdgeAboutLine EdgeAbout(const std::vector<Vector2d>& edge,
   return about;
 }
 
-constexpr std::size_t kFewestAbreast = 60;  // points; fewer show no course
-
 // About the line between the edges' ends, over the length of the blades.
 EdgeGap GapAbout(const EdgePair& edges, const Vector2d& pivot_px) {
   const Vector2d left = edges.left_px.back() - pivot_px, right = edges.right_px.back() - pivot_px;
@@ -154,6 +152,7 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   constexpr double kCloser = 1.0 / 3;             // of the scatter about a straight line
   constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola
   constexpr double kBehind = -0.05, kHeel = 0.3;  // of the length, from the pivot
+  constexpr std::size_t kFewestAbreast = 60;      // points; fewer show no bend
   const EdgeGap gap = GapAbout(edges, pivot_px);
   if (gap.along.size() < kFewestAbreast) return false;
   const FittedGap straight = FitAllOf(gap, 2), bent = FitAllOf(gap, 3);
@@ -166,8 +165,10 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
 }
 
 double EdgeUnlikeness(const EdgePair& edges, const Vector2d& pivot_px) {
+  constexpr std::size_t kFewestAbreast = 20;  // points; fewer show no shape
   const EdgeGap gap = GapAbout(edges, pivot_px);
-  return gap.along.size() < kFewestAbreast ? 0 : FitAllOf(gap, 2).scatter;
+  if (gap.along.size() < kFewestAbreast) return std::numeric_limits<double>::quiet_NaN();
+  return FitAllOf(gap, 2).scatter;
 }
 
 double EdgeOverlap(const EdgePair& edges, const Vector2d& pivot_px) {

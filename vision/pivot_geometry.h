@@ -36,7 +36,7 @@ struct EdgeMirror {
 
 // How unlike the two edges are in shape: root mean square of what their distances from the line
 // between their ends differ by, over the length of the blades, but for a straight line, which is
-// all that a pivot aside or a slanted view adds. 0 where too little of them lies abreast.
+// all that a pivot aside or a slanted view adds. NaN where too little of them lies abreast to tell.
 [[nodiscard]] double EdgeUnlikeness(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
 // How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two
