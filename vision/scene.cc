@@ -166,10 +166,11 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
 }
 
 // Instruments whose limbs look like those of scissors, and blades that one view does not show.
-void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
+void RefuseOtherInstruments(const LadderResult& ladder, const StoredHints& hints) {
   constexpr int kThings = 6;
   constexpr double kAngled = 0.3;  // rad
   if (hints.pivot_px) return;
+  const Candidate& found = ladder.best;
   const std::vector<Silhouette> things = FindSilhouettes(found.mask, kThings);
   const Silhouette* own = ThingAt(things, found.pair.pivot);
   if (own != nullptr && CountLimbsAhead(own->filled, found.pair) > 2) {
@@ -178,7 +179,7 @@ void RefuseOtherInstruments(const Candidate& found, const StoredHints& hints) {
                   "more; part the instruments, use softer light, or say where the screw is: "
                   "--pivot X,Y");
   }
-  if (TurnAtJoint(found.pair) > kAngled) {
+  if (TurnAtJoint(ladder) > kAngled) {
     throw Refused(Reason::kOutOfPlane,
                   "scene: the blades are set at an angle to the shanks, as those of bandage "
                   "scissors are; if they lie flat, say where the screw is: --pivot X,Y");
@@ -205,7 +206,7 @@ SceneFinder::SceneFinder(const Photo& photo,
 SceneFinder::~SceneFinder() = default;
 
 Scene SceneFinder::Likeliest() const {
-  RefuseOtherInstruments(ladder_->best, hints_);
+  RefuseOtherInstruments(*ladder_, hints_);
   Scene scene = SceneFrom(ladder_->best);
   scene.second_look = looked_again_;
   if (hints_.pivot_px) {

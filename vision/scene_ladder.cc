@@ -9,6 +9,7 @@
 
 #include "vision/nearest_pixel.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 #include "vision/scene_debug.h"
 #include "vision/scene_rungs.h"
 #include "vision/silhouette.h"
@@ -175,6 +176,15 @@ LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
 bool ShowsWholeBlades(const LadderResult& result) {
   const BladePair& pair = result.best.pair;
   return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
+}
+
+double TurnAtJoint(const LadderResult& result) {
+  std::vector<double> turns;
+  for (const Candidate& c : result.seen) {
+    if (c.pair.quality >= kAcceptedQuality && SameBlades(c, result.best))
+      turns.push_back(TurnAtJoint(c.pair));
+  }
+  return Median(turns);
 }
 
 LadderResult ClimbLadder(const Photo& photo,

@@ -23,6 +23,10 @@ struct LadderResult {
 // Whether blades were found that could be measured.
 [[nodiscard]] bool ShowsWholeBlades(const LadderResult& result);
 
+// Median over the masks that show the same blades well enough, rad: a single one may lose the turn
+// where a ring merges with a shadow or a shank is not seen to its end.
+[[nodiscard]] double TurnAtJoint(const LadderResult& result);
+
 // Tries one rung after the other until one gives a consistent pair of blades; logs what ran and
 // why.
 [[nodiscard]] LadderResult ClimbLadder(const Photo& photo,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -26,6 +27,7 @@
 #include "vision/region_merging.h"
 #include "vision/render.h"
 #include "vision/scene_candidate.h"
+#include "vision/scene_ladder.h"
 #include "vision/sharp_gradient.h"
 #include "vision/silhouette.h"
 #include "vision/stage_log.h"
@@ -522,6 +524,49 @@ TEST(SceneFinder, RefusesBladesSetAtAnAngle) {
   EXPECT_NE(ReasonFor(SketchTurnedBy(0)), "out_of_plane");
   for (const double turn_deg : {-40.0, 30.0})
     EXPECT_EQ(ReasonFor(SketchTurnedBy(turn_deg * kDegree)), "out_of_plane") << turn_deg;
+}
+
+// A mask that shows blades of 100 px, turned by `turn` against their shanks.
+Candidate MaskWithTurn(double turn_rad) {
+  const auto at = [](double direction) {
+    return Eigen::Vector2d(100 * std::cos(direction), 100 * std::sin(direction));
+  };
+  constexpr double kHalfOpening = 0.25;
+  Candidate c;
+  const cv::Mat light(100, 100, CV_32FC1);
+  const Window window{cv::Rect({}, light.size()), light.size()};
+  c.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+  c.pair.quality = 1;
+  c.pair.pivot = {0, 0};
+  c.pair.first.length = c.pair.second.length = 100;
+  c.pair.first.tip = at(-kHalfOpening);
+  c.pair.second.tip = at(kHalfOpening);
+  c.pair.shank_first = at(std::numbers::pi - turn_rad - kHalfOpening);
+  c.pair.shank_second = at(std::numbers::pi - turn_rad + kHalfOpening);
+  return c;
+}
+
+// The clearest mask alone may have lost what the others show.
+TEST(TurnAtJoint, IsThatOfMostMasksOfTheSameBlades) {
+  constexpr double kTurned = 0.5;
+  LadderResult ladder;
+  ladder.best = MaskWithTurn(0);
+  ladder.seen = {ladder.best, MaskWithTurn(kTurned), MaskWithTurn(kTurned)};
+  EXPECT_NEAR(TurnAtJoint(ladder), kTurned, 1e-9);
+  Candidate poor = MaskWithTurn(0);
+  poor.pair.quality = 0.5 * kAcceptedQuality;
+  Candidate elsewhere = MaskWithTurn(0);
+  for (Eigen::Vector2d* place :
+       {&elsewhere.pair.pivot, &elsewhere.pair.first.tip, &elsewhere.pair.second.tip})
+    *place += Eigen::Vector2d(300, 0);
+  for (int i = 0; i < 3; ++i) {
+    ladder.seen.push_back(poor);
+    ladder.seen.push_back(elsewhere);
+  }
+  EXPECT_NEAR(TurnAtJoint(ladder), kTurned, 1e-9) << "poor masks and other things do not count";
+  ladder.seen.push_back(MaskWithTurn(0));
+  ladder.seen.push_back(MaskWithTurn(0));
+  EXPECT_NEAR(TurnAtJoint(ladder), 0, 1e-9);
 }
 
 TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
