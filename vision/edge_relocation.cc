@@ -13,6 +13,7 @@
 #include "vision/mirrored_trace.h"
 #include "vision/pivot_geometry.h"
 #include "vision/refused.h"
+#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {
@@ -26,6 +27,25 @@ struct Relocated {
   LocatedBlade blade;
   double asymmetry = 0;
 };
+
+// Whether an edge lies on the side of its blade that faces the gap, no deeper than where a shadow
+// widened what scene finding took for the blade.
+bool FacesGap(const Scene& scene, const LocatedBlade& blade) {
+  constexpr double kWidest = 0.4;      // such a shadow, of that width
+  constexpr std::size_t kEnough = 50;  // places along the edge
+  const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
+  std::vector<double> inwards_px;
+  for (std::size_t i = 0; i < blade.used.size(); i += 1 + blade.used.size() / kEnough) {
+    const LocatedEdgePoint& p = blade.used[i];
+    const auto off = [&](const Vector2d& q) { return (q - p.trend_px).squaredNorm(); };
+    const auto nearest = std::min_element(
+        seen.inner_px.begin(), seen.inner_px.end(), [&](const Vector2d& a, const Vector2d& b) {
+          return off(a) < off(b);
+        });
+    inwards_px.push_back((*nearest - p.trend_px).dot(p.normal));
+  }
+  return Median(std::move(inwards_px)) < kWidest * seen.width_px;
+}
 
 // The look for one blade where the other's mirror image lies.
 struct Mirroring {
@@ -72,8 +92,8 @@ struct Mirroring {
 
   // What is seen there.
   [[nodiscard]] std::optional<Relocated> LookWithin(double search_px) const {
-    return UnlessRefused([&] {
-      return WithEdge(LocateBladeAlong(view.photo, view.scale, view.scene, GuessWithin(search_px)));
+    return IfItFacesGap([&] {
+      return LocateBladeAlong(view.photo, view.scale, view.scene, GuessWithin(search_px));
     });
   }
 
@@ -82,7 +102,14 @@ struct Mirroring {
     std::optional<LocatedEdge> edge =
         LocateBladeInShadow(view.photo, view.scale, view.scene, GuessWithin(Widened(search_px)));
     if (!edge) return std::nullopt;
-    return UnlessRefused([&] { return WithEdge(*std::move(edge)); });
+    return IfItFacesGap([&] { return *std::move(edge); });
+  }
+
+  // The other side of the blade, or a line within it, may lie there too.
+  template <typename Look>
+  [[nodiscard]] std::optional<Relocated> IfItFacesGap(const Look& look) const {
+    auto found = UnlessRefused([&] { return WithEdge(look()); });
+    return found && FacesGap(view.scene, found->blade) ? std::move(found) : std::nullopt;
   }
 };
 

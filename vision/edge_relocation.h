@@ -24,6 +24,7 @@ namespace bladecurve {
 //   is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
 //   one, if it is seen where the other puts it.
+// None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
 // not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
 // as those of scissors do stay where they were if they would hardly pass by it elsewhere.

@@ -81,6 +81,30 @@ TEST(RelocateUnlikeEdges, DoubtsTheVaguerOfEdgesOfUnlikeShapeByAsMuchAsTheyDiffe
   EXPECT_LT(measured.blades.upper.edge.ambiguity, 0.5);
 }
 
+// Deeper within the blade than any shadow is wide there may be a line, but it is not the edge.
+TEST(RelocateUnlikeEdges, TakesNoEdgeToBeyondTheMiddleOfItsBlade) {
+  constexpr double kAsidePx = 16, kClosePx = 0.3;
+  for (const double share_of_width : {0.3, 0.6}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& lower = measured.blades.lower;
+    measured.Misplace(&lower, kAsidePx);
+    measured.MakeClear(&measured.blades.upper);
+    lower.edge.common_sigma_px = 0.5;
+    SceneBlade& seen = measured.scene.right;
+    seen.inner_px = PointsOf(lower);
+    seen.width_px = kAsidePx / share_of_width;
+    Relocate(&measured);
+    const double off_px = FarFrom(measured.truth.lower, lower.used);
+    if (share_of_width < 0.4) {
+      EXPECT_LT(off_px, kClosePx);
+    } else {
+      EXPECT_GT(off_px, 0.9 * kAsidePx);
+      EXPECT_GT(lower.edge.ambiguity, 0.7);
+      EXPECT_GT(lower.edge.common_sigma_px, kAsidePx / 2);
+    }
+  }
+}
+
 // About a pivot so far forward that the edges hardly pass by it, the misplaced one stays.
 TEST(RelocateUnlikeEdges, TakesNoEdgeToWhereItWouldHardlyPassByThePivot) {
   constexpr double kAsidePx = 16, kHardly = 0.04;
