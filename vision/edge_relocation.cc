@@ -31,7 +31,7 @@ struct Relocated {
 // Whether an edge lies on the side of its blade that faces the gap, no deeper than where a shadow
 // widened what scene finding took for the blade.
 bool FacesGap(const Scene& scene, const LocatedBlade& blade) {
-  constexpr double kWidest = 0.4;      // such a shadow, of that width
+  constexpr double kWidest = 0.5;      // such a shadow, of that width
   constexpr std::size_t kEnough = 50;  // places along the edge
   const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
   std::vector<double> inwards_px;

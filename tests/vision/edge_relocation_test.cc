@@ -95,7 +95,7 @@ TEST(RelocateUnlikeEdges, TakesNoEdgeToBeyondTheMiddleOfItsBlade) {
     seen.width_px = kAsidePx / share_of_width;
     Relocate(&measured);
     const double off_px = FarFrom(measured.truth.lower, lower.used);
-    if (share_of_width < 0.4) {
+    if (share_of_width < 0.5) {
       EXPECT_LT(off_px, kClosePx);
     } else {
       EXPECT_GT(off_px, 0.9 * kAsidePx);
