@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/card.h"
+#include "vision/scale/card.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 #include "samples/commands.h"
 #include "samples/output_files.h"
-#include "vision/card_drawing.h"
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
+#include "vision/scale/card_drawing.h"
 
 namespace bladecurve {
 namespace {

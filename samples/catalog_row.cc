@@ -13,7 +13,7 @@
 #include "samples/blade_record.h"
 #include "samples/csv_text.h"
 #include "samples/fitted_photo.h"
-#include "vision/sha256.h"
+#include "vision/photo/sha256.h"
 
 namespace bladecurve {
 namespace {

@@ -16,7 +16,7 @@
 #include "samples/fit_overlay.h"
 #include "samples/output_files.h"
 #include "vision/parallel.h"
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
 
 namespace bladecurve {
 namespace {

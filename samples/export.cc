@@ -16,7 +16,7 @@
 
 #include "samples/commands.h"
 #include "samples/output_files.h"
-#include "vision/sha256.h"
+#include "vision/photo/sha256.h"
 
 namespace bladecurve {
 namespace {

@@ -18,7 +18,7 @@
 #include "samples/fit_summary.h"
 #include "samples/output_files.h"
 #include "samples/refusal.h"
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
 
 namespace bladecurve {
 namespace {

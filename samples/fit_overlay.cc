@@ -8,8 +8,8 @@
 #include "samples/blade_record.h"
 #include "samples/fit_summary.h"
 #include "samples/fitted_photo.h"
-#include "vision/overlay.h"
-#include "vision/scale.h"
+#include "vision/overlay/overlay.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 

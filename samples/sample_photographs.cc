@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "samples/scene_truth.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

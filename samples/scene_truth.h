@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 

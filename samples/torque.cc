@@ -23,7 +23,7 @@
 #include "samples/output_files.h"
 #include "samples/torque_plot.h"
 #include "samples/torque_realtime.h"
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
 
 namespace bladecurve {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "model/blade_file.h"
 #include "samples/fitted_photo.h"
-#include "vision/photo.h"
-#include "vision/render_compare.h"
+#include "vision/photo/photo.h"
+#include "vision/render/render_compare.h"
 
 namespace bladecurve {
 namespace {

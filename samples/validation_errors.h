@@ -6,7 +6,7 @@
 
 #include "samples/analysis.h"
 #include "samples/validation_run.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 

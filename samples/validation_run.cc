@@ -9,7 +9,7 @@
 #include "samples/analysis.h"
 #include "samples/output_files.h"
 #include "samples/validation_errors.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "vision/head_place.h"
-#include "vision/scale.h"
+#include "vision/pivot/head_place.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {

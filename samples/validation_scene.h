@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "vision/refused.h"
-#include "vision/synthetic_scene.h"
+#include "vision/render/synthetic_scene.h"
 
 namespace bladecurve {
 

@@ -123,6 +123,49 @@ TEST(Layers, VisionKnowsNeitherModelNorCurvefit) {
                      "cpuid.h"}});
 }
 
+// The rooms of vision/ in the order in which a photograph goes through them. What lies directly in
+// vision/ ties them together; of that they know refusals, threads and the log of stages alone.
+struct Room {
+  std::string name;
+  std::vector<std::string> knows;
+};
+
+std::vector<Room> RoomsOfVision() {
+  return {{"image", {}},
+          {"photo", {"image"}},
+          {"scale", {"image", "photo"}},
+          {"scene", {"image", "photo", "scale"}},
+          {"edge", {"image"}},
+          {"pivot", {"image", "scale", "scene"}},
+          {"scissors", {"image", "photo", "scale", "scene", "edge", "pivot"}},
+          {"render", {"image"}},
+          {"overlay", {"photo"}}};
+}
+
+TEST(Layers, EveryFolderInVisionIsARoom) {
+  std::vector<std::string> folders, rooms;
+  for (const auto& entry : fs::directory_iterator(fs::path(BLADECURVE_SOURCE_DIR) / "vision")) {
+    if (entry.is_directory()) folders.push_back(entry.path().filename().string());
+  }
+  for (const Room& room : RoomsOfVision()) rooms.push_back(room.name);
+  std::sort(folders.begin(), folders.end());
+  std::sort(rooms.begin(), rooms.end());
+  EXPECT_EQ(folders, rooms);
+}
+
+TEST(Layers, RoomsOfVisionKnowEarlierOnesAlone) {
+  for (const Room& room : RoomsOfVision()) {
+    std::vector<std::string> may = {
+        "vision/" + room.name + "/", "vision/parallel.h", "vision/refused.h", "vision/stage_log.h"};
+    for (const std::string& known : room.knows) may.push_back("vision/" + known + "/");
+    for (const Include& include : IncludesOfFolder("vision/" + room.name)) {
+      if (!include.project) continue;
+      EXPECT_TRUE(HasPrefix(include.target, may))
+          << include.file.string() << " must not include " << include.target;
+    }
+  }
+}
+
 TEST(Layers, CurvefitSeesOnlyTheResultsOfVisionAndCeresInSources) {
   ExpectLayerHolds({"curvefit",
                     {"curvefit/", "model/", "vision/edge_points.h", "vision/refused.h"},

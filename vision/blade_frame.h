@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "vision/edge_points.h"
-#include "vision/plane_map.h"
+#include "vision/scale/plane_map.h"
 
 namespace bladecurve {
 

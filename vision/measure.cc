@@ -11,12 +11,12 @@
 #include <utility>
 
 #include "vision/blade_frame.h"
-#include "vision/located_blade.h"
-#include "vision/opening.h"
 #include "vision/parallel.h"
-#include "vision/pivot.h"
-#include "vision/scene.h"
-#include "vision/scissors.h"
+#include "vision/pivot/pivot.h"
+#include "vision/scene/scene.h"
+#include "vision/scissors/located_blade.h"
+#include "vision/scissors/opening.h"
+#include "vision/scissors/scissors.h"
 #include "vision/warnings.h"
 
 namespace bladecurve {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "vision/edge_points.h"
-#include "vision/photo.h"
-#include "vision/scale.h"
+#include "vision/photo/photo.h"
+#include "vision/scale/scale.h"
 #include "vision/stage_log.h"
 
 namespace bladecurve {

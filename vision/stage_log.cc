@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
 
 namespace bladecurve {
 

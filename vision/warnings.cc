@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "vision/consistency.h"
+#include "vision/scissors/consistency.h"
 
 namespace bladecurve {
 namespace {

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "vision/located_blade.h"
-#include "vision/pivot.h"
-#include "vision/plane_map.h"
-#include "vision/scale.h"
-#include "vision/scene.h"
+#include "vision/pivot/pivot.h"
+#include "vision/scale/plane_map.h"
+#include "vision/scale/scale.h"
+#include "vision/scene/scene.h"
+#include "vision/scissors/located_blade.h"
 
 namespace bladecurve {
 

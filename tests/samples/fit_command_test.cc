@@ -14,7 +14,7 @@
 #include "model/blade_file.h"
 #include "tests/samples/picture_files.h"
 #include "tests/samples/program_run.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

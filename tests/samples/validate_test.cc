@@ -16,8 +16,8 @@
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
 #include "tests/samples/program_run.h"
-#include "vision/head_place.h"
-#include "vision/render.h"
+#include "vision/pivot/head_place.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

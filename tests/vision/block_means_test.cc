@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/block_means.h"
+#include "vision/image/block_means.h"
 
 #include <gtest/gtest.h>
 

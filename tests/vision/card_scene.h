@@ -4,9 +4,9 @@
 
 #include <Eigen/Core>
 
-#include "vision/card.h"
-#include "vision/plane_map.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
+#include "vision/scale/card.h"
+#include "vision/scale/plane_map.h"
 
 namespace bladecurve {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/card.h"
+#include "vision/scale/card.h"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@
 #include <string>
 
 #include "process_folder.h"
-#include "vision/card_drawing.h"
-#include "vision/photo.h"
-#include "vision/png_writer.h"
+#include "vision/image/tone_curve.h"
+#include "vision/photo/photo.h"
+#include "vision/photo/png_writer.h"
 #include "vision/refused.h"
-#include "vision/scale.h"
-#include "vision/tone_curve.h"
+#include "vision/scale/card_drawing.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/consistency.h"
+#include "vision/scissors/consistency.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "vision/edge.h"
+#include "vision/edge/edge.h"
 #include "vision/edge_bound.h"
 #include "vision/edge_images.h"
 #include "vision/edge_reference.h"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Edges that grey hides and colour shows, and dark bands told apart by their colour or pattern.
-#include "vision/edge_colour.h"
+#include "vision/edge/edge_colour.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/colour_border.h"
+#include "vision/edge/colour_border.h"
+#include "vision/edge/edge_shadow.h"
 #include "vision/edge_images.h"
-#include "vision/edge_shadow.h"
 #include "vision/refused.h"
 
 namespace bladecurve {

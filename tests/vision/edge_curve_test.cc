@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Points at an edge's ends that belong to another line, and where an edge runs at its end.
-#include "vision/edge_curve.h"
+#include "vision/edge/edge_curve.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "vision/tone_curve.h"
+#include "vision/image/tone_curve.h"
 
 namespace bladecurve::testing {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Which slopes beside an edge its windows support.
-#include "vision/edge_levels.h"
+#include "vision/edge/edge_levels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Shadows that were taken for blade, and bevels and rounded flanks, which are blade.
-#include "vision/edge_margin.h"
+#include "vision/edge/edge_margin.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // What colours say of an edge that hardly shows in grey, and both edges together of the dark bands
 // beside them.
-#include "vision/edge_pair.h"
+#include "vision/scissors/edge_pair.h"
 
 #include <gtest/gtest.h>
 

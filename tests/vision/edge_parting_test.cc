@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/edge_parting.h"
+#include "vision/scissors/edge_parting.h"
 
 #include <gtest/gtest.h>
 

@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "vision/blurred_step.h"
-#include "vision/edge_band.h"
-#include "vision/edge_choice.h"
-#include "vision/edge_debug.h"
+#include "vision/edge/edge_band.h"
+#include "vision/edge/edge_choice.h"
+#include "vision/edge/edge_debug.h"
+#include "vision/edge/edge_path.h"
 #include "vision/edge_images.h"
-#include "vision/edge_path.h"
+#include "vision/image/blurred_step.h"
 #include "vision/refused.h"
 
 namespace bladecurve {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "vision/edge.h"
+#include "vision/edge/edge.h"
 #include "vision/edge_images.h"
 #include "vision/measure.h"
-#include "vision/photo.h"
+#include "vision/photo/photo.h"
 #include "vision/refused.h"
 
 namespace bladecurve {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "vision/blurred_step.h"
+#include "vision/image/blurred_step.h"
 
 namespace bladecurve::testing {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/edge_relocation.h"
+#include "vision/scissors/edge_relocation.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "measured_blades.h"
-#include "vision/consistency.h"
+#include "vision/scissors/consistency.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/edge_slice.h"
+#include "vision/edge/edge_slice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/edge.h"
+#include "vision/edge/edge.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include "vision/edge_bound.h"
 #include "vision/edge_images.h"
 #include "vision/edge_reference.h"
+#include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
-#include "vision/robust_statistics.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/end_pair.h"
+#include "vision/scissors/end_pair.h"
 
 #include <gtest/gtest.h>
 

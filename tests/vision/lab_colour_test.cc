@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/lab_colour.h"
+#include "vision/image/lab_colour.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/marker_corners.h"
+#include "vision/scale/marker_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "vision/marker_detector.h"
-#include "vision/marker_fit.h"
+#include "vision/image/tone_curve.h"
+#include "vision/scale/marker_detector.h"
+#include "vision/scale/marker_fit.h"
 #include "vision/square_images.h"
-#include "vision/tone_curve.h"
 
 namespace bladecurve {
 namespace {

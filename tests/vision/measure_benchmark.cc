@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "vision/measure.h"
-#include "vision/photo_codec.h"
-#include "vision/render.h"
+#include "vision/photo/photo_codec.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

@@ -18,10 +18,10 @@
 
 #include "process_folder.h"
 #include "vision/measure.h"
-#include "vision/photo.h"
-#include "vision/png_writer.h"
+#include "vision/photo/photo.h"
+#include "vision/photo/png_writer.h"
 #include "vision/refused.h"
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

@@ -16,11 +16,11 @@
 #include <vector>
 
 #include "process_folder.h"
-#include "vision/edge_pair.h"
-#include "vision/mirror_line.h"
-#include "vision/pivot_geometry.h"
-#include "vision/png_writer.h"
-#include "vision/render.h"
+#include "vision/photo/png_writer.h"
+#include "vision/pivot/pivot_geometry.h"
+#include "vision/render/render.h"
+#include "vision/scissors/edge_pair.h"
+#include "vision/scissors/mirror_line.h"
 
 namespace bladecurve::testing {
 

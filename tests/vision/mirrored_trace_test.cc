@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/mirrored_trace.h"
+#include "vision/scissors/mirrored_trace.h"
 
 #include <gtest/gtest.h>
 

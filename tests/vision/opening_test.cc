@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/opening.h"
+#include "vision/scissors/opening.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "vision/consistency.h"
+#include "vision/scissors/consistency.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/photo.h"
+#include "vision/photo/photo.h"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -19,9 +19,9 @@
 
 #include "process_folder.h"
 #include "vision/parallel.h"
-#include "vision/png_writer.h"
+#include "vision/photo/png_writer.h"
+#include "vision/photo/sha256.h"
 #include "vision/refused.h"
-#include "vision/sha256.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/pivot_geometry.h"
+#include "vision/pivot/pivot_geometry.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/pivot.h"
+#include "vision/pivot/pivot.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "measured_blades.h"
-#include "vision/consistency.h"
-#include "vision/head_search.h"
+#include "vision/pivot/head_search.h"
 #include "vision/refused.h"
+#include "vision/scissors/consistency.h"
 
 namespace bladecurve {
 namespace {

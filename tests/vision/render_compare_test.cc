@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/render_compare.h"
+#include "vision/render/render_compare.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 // Oracles: clipping a polygon with a cell gives the exact area; a blurred half-plane has a closed
 // form.
+#include "vision/render/render_coverage.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
-
-#include "vision/render_coverage.h"
 
 namespace bladecurve::render {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/render.h"
+#include "vision/render/render.h"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/photo.h"
-#include "vision/render_camera.h"
-#include "vision/render_outline.h"
-#include "vision/render_sensor.h"
+#include "vision/photo/photo.h"
+#include "vision/render/render_camera.h"
+#include "vision/render/render_outline.h"
+#include "vision/render/render_sensor.h"
 
 namespace bladecurve {
 namespace {

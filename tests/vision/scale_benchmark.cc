@@ -10,9 +10,9 @@
 
 #include "vision/card_scene.h"
 #include "vision/corner_bound.h"
-#include "vision/marker_corners.h"
-#include "vision/png_writer.h"
-#include "vision/scale.h"
+#include "vision/photo/png_writer.h"
+#include "vision/scale/marker_corners.h"
+#include "vision/scale/scale.h"
 #include "vision/square_images.h"
 
 namespace bladecurve {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/scale.h"
+#include "vision/scale/scale.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <random>
 
 #include "process_folder.h"
-#include "vision/card.h"
 #include "vision/refused.h"
-#include "vision/sheet_pose.h"
+#include "vision/scale/card.h"
+#include "vision/scale/sheet_pose.h"
 #include "vision/square_images.h"
 
 namespace bladecurve {

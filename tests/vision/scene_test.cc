@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/scene.h"
+#include "vision/scene/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -15,21 +15,21 @@
 
 #include "measured_blades.h"
 #include "process_folder.h"
-#include "vision/blades.h"
-#include "vision/catches.h"
-#include "vision/closed_shape.h"
-#include "vision/flood.h"
-#include "vision/limb_count.h"
 #include "vision/measure.h"
-#include "vision/photo.h"
-#include "vision/png_writer.h"
+#include "vision/photo/photo.h"
+#include "vision/photo/png_writer.h"
 #include "vision/refused.h"
-#include "vision/region_merging.h"
-#include "vision/render.h"
-#include "vision/scene_candidate.h"
-#include "vision/scene_ladder.h"
-#include "vision/sharp_gradient.h"
-#include "vision/silhouette.h"
+#include "vision/render/render.h"
+#include "vision/scene/blades.h"
+#include "vision/scene/catches.h"
+#include "vision/scene/closed_shape.h"
+#include "vision/scene/flood.h"
+#include "vision/scene/limb_count.h"
+#include "vision/scene/region_merging.h"
+#include "vision/scene/scene_candidate.h"
+#include "vision/scene/scene_ladder.h"
+#include "vision/scene/sharp_gradient.h"
+#include "vision/scene/silhouette.h"
 #include "vision/stage_log.h"
 
 namespace bladecurve {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/scissors.h"
+#include "vision/scissors/scissors.h"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 
 #include "process_folder.h"
 #include "vision/measure.h"
-#include "vision/png_writer.h"
-#include "vision/render.h"
-#include "vision/synthetic_scene.h"
+#include "vision/photo/png_writer.h"
+#include "vision/render/render.h"
+#include "vision/render/synthetic_scene.h"
 
 namespace bladecurve {
 namespace {

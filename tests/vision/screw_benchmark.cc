@@ -12,8 +12,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "vision/render.h"
-#include "vision/screw.h"
+#include "vision/pivot/screw.h"
+#include "vision/render/render.h"
 #include "vision/screw_images.h"
 
 namespace bladecurve {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/screw_grain.h"
+#include "vision/pivot/screw_grain.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/screw_ground.h"
+#include "vision/pivot/screw_ground.h"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "vision/photo.h"
-#include "vision/screw.h"
+#include "vision/photo/photo.h"
+#include "vision/pivot/screw.h"
 #include "vision/screw_images.h"
 
 namespace bladecurve {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/screw_refinement.h"
+#include "vision/pivot/screw_refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "vision/render.h"
-#include "vision/screw.h"
+#include "vision/pivot/screw.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/screw_slot.h"
+#include "vision/pivot/screw_slot.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/screw.h"
+#include "vision/pivot/screw.h"
 
 #include <gtest/gtest.h>
 

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "process_folder.h"
-#include "vision/card.h"
 #include "vision/card_scene.h"
-#include "vision/png_writer.h"
-#include "vision/render.h"
-#include "vision/scale.h"
+#include "vision/photo/png_writer.h"
+#include "vision/render/render.h"
+#include "vision/scale/card.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {

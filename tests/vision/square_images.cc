@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "vision/marker_detector.h"
+#include "vision/scale/marker_detector.h"
 
 namespace bladecurve {
 namespace {

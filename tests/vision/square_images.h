@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-#include "vision/tone_curve.h"
+#include "vision/image/tone_curve.h"
 
 namespace bladecurve {
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/straight_edge.h"
+#include "vision/scale/straight_edge.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "vision/marker_corners.h"
+#include "vision/image/tone_curve.h"
+#include "vision/scale/marker_corners.h"
 #include "vision/square_images.h"
-#include "vision/tone_curve.h"
 
 namespace bladecurve {
 namespace {

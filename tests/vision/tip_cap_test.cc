@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include "vision/tip_cap.h"
+#include "vision/scissors/tip_cap.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "vision/distal_end.h"
+#include "vision/scissors/distal_end.h"
 
 namespace bladecurve {
 namespace {

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/edge/edge_choice.h"
+#include "vision/edge/edge_fit.h"
+#include "vision/image/tone_curve.h"
+
+namespace bladecurve {
+
+// Standard uncertainty, px, of an offset that all points of an edge share and no amount of pixels
+// reduces: a tone curve that is not known, overexposure, another transition that might be the
+// border.
+[[nodiscard]] double CommonSigma(const EdgeFit& fit,
+                                 const ToneCurve& tone,
+                                 const ChosenTransition& chosen,
+                                 bool blur_known);
+
+// Light that slopes beside the edge is continued to it as a straight line, or a parabola: a third
+// of what it changes within reach may be wrong, and moves the half-way level.
+[[nodiscard]] double SlopeSigma(const EdgeFit& fit);
+
+}  // namespace bladecurve

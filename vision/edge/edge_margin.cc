@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/edge/edge_margin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "vision/image/pixel_light.h"
+#include "vision/image/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+// Typical light at a distance from an edge, positive out of the blade; 0 beyond the picture. Not
+// near the crotch, where the other blade is close.
+double TypicalLight(const cv::Mat& grey,
+                    const ToneCurve& tone,
+                    const LocatedEdge& edge,
+                    double across_px) {
+  constexpr double kFirst = 0.15;      // of the points
+  constexpr std::size_t kEnough = 60;  // places along the edge
+  const std::size_t count = edge.points.size(), stride = 1 + count / kEnough;
+  std::vector<double> light;
+  for (auto i = static_cast<std::size_t>(kFirst * static_cast<double>(count)); i < count;
+       i += stride) {
+    const LocatedEdgePoint& point = edge.points[i];
+    if (const auto at = LightAt(grey, tone, point.trend_px + across_px * point.normal))
+      light.push_back((*at)[0]);
+  }
+  return light.empty() ? 0 : Median(std::move(light));
+}
+
+constexpr double kNearestPx = 2;  // from the edge, whose blur ends there
+constexpr double kDarker = 1.5;   // times lighter is the ground than a margin
+
+using Across = std::function<double(double)>;  // light at a distance from an edge
+
+std::optional<Margin> DarkMargin(const Across& light_at, double ground, double widest_px) {
+  constexpr double kDarkestPx = 4;
+  constexpr double kRises = 1.2, kPlate = 1.25;  // light where the margin ends, and behind
+  constexpr double kBehindPx = 6;
+  constexpr double kStep = 0.1;  // of the width
+  Margin margin{kNearestPx, light_at(-kNearestPx), ground};
+  for (double across = kNearestPx + 1; across <= kDarkestPx; ++across) {
+    const double light = light_at(-across);
+    if (light < margin.light) margin = {across, light, ground};
+  }
+  if (margin.light <= 0 || ground < kDarker * margin.light) return std::nullopt;
+  while (margin.width_px < widest_px && light_at(-margin.width_px) < kRises * margin.light)
+    margin.width_px += std::max(1.0, kStep * margin.width_px);
+  for (double behind = 0; behind <= kBehindPx; ++behind) {
+    const bool in_reach = margin.width_px + behind <= widest_px;
+    if (in_reach && light_at(-margin.width_px - behind) > kPlate * margin.light) return margin;
+  }
+  return std::nullopt;
+}
+
+// It ends half way from its light to the blade's, and within a blur's width.
+std::optional<Margin> BrightMargin(const Across& light_at,
+                                   double ground,
+                                   double widest_px,
+                                   const LocatedEdge& edge) {
+  constexpr double kBlurs = 3, kUsualBlurPx = 0.8;  // sigmas: where the ground's light ends
+  constexpr double kBrighter = 1.5;                 // than the blade
+  constexpr double kHalf = 0.5, kEnds = 0.75;       // of the way to the blade's light
+  const double foot = std::max(kNearestPx, kBlurs * BlurOr(edge, kUsualBlurPx));
+  const double shoulder = light_at(-foot);
+  if (ground < kDarker * shoulder) return std::nullopt;
+  std::vector<double> light;
+  for (double across = foot; across <= widest_px; ++across) light.push_back(light_at(-across));
+  if (light.empty()) return std::nullopt;
+  const double plate = *std::min_element(light.begin(), light.end());
+  if (plate <= 0 || shoulder < kBrighter * plate) return std::nullopt;
+  const auto falls_at = [&](double share) {  // px from the foot
+    const double level = shoulder + share * (plate - shoulder);
+    const auto fallen = [&](double l) { return l <= level; };
+    return static_cast<double>(std::find_if(light.begin(), light.end(), fallen) - light.begin());
+  };
+  if (falls_at(kEnds) - falls_at(kHalf) > foot) return std::nullopt;
+  return Margin{foot + falls_at(kHalf), shoulder, ground, Shadow::kBrighter};
+}
+
+bool WithinFactor(double a, double b, double factor) { return a < factor * b && b < factor * a; }
+
+bool AreAlike(const Margin& a, const Margin& b, double same_light, double same_ground) {
+  constexpr double kSameWidth = 2;
+  return a.than_blade == b.than_blade && WithinFactor(a.light, b.light, same_light) &&
+         WithinFactor(a.ground, b.ground, same_ground) &&
+         WithinFactor(a.width_px, b.width_px, kSameWidth);
+}
+
+}  // namespace
+
+std::optional<Margin> FindMargin(const cv::Mat& grey,
+                                 const ToneCurve& tone,
+                                 const LocatedEdge& edge,
+                                 double blade_px) {
+  constexpr double kWidest = 0.5;        // of the blade,
+  constexpr double kLeastWidestPx = 10;  // but no less
+  constexpr double kGroundPx = 4, kGroundEndPx = 10;
+  const Across light_at = [&](double across) { return TypicalLight(grey, tone, edge, across); };
+  std::vector<double> ground;
+  for (double across = kGroundPx; across <= kGroundEndPx; ++across)
+    ground.push_back(light_at(across));
+  const double ground_light = Median(std::move(ground));
+  const double widest = std::max(kWidest * blade_px, kLeastWidestPx);
+  std::optional<Margin> margin = DarkMargin(light_at, ground_light, widest);
+  return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
+}
+
+bool AreOneShading(const Margin& a, const Margin& b) {
+  constexpr double kSameLight = 1.6, kSameGround = 1.25;
+  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround);
+}
+
+bool AreOneShadow(const Margin& a, const Margin& b) {
+  constexpr double kSameLight = 1.12, kSameGround = 1.06;
+  return AreAlike(a, b, kSameLight, kSameGround);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "vision/edge/edge.h"
+#include "vision/image/tone_curve.h"
+
+namespace bladecurve {
+
+// What lies along the inner side of an edge and is unlike the blade further in, and darker than the
+// ground: a bevel, or a shadow that was taken for blade.
+struct Margin {
+  double width_px = 0;
+  double light = 0, ground = 0;  // linear light
+  Shadow than_blade = Shadow::kDarker;
+};
+
+// std::nullopt where there is none. grey: CV_8UC1; blade_px: how wide the blade is.
+[[nodiscard]] std::optional<Margin> FindMargin(const cv::Mat& grey,
+                                               const ToneCurve& tone,
+                                               const LocatedEdge& edge,
+                                               double blade_px);
+
+// Whether margins along the two sides of a blade are how light falls off towards the borders of a
+// rounded one: dark, alike in light and width, before the same ground.
+[[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b);
+
+// Whether margins of two edges that face the same way are one shadow: alike in light and width,
+// before the same ground. Bevels are ground on cutting edges, not on the blades' outer sides.
+[[nodiscard]] bool AreOneShadow(const Margin& a, const Margin& b);
+
+}  // namespace bladecurve

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include <csetjmp>
+#include <cstdio>
+// jpeglib.h needs FILE and size_t declared before it.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "vision/parallel.h"
+#include "vision/photo/photo_codec.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr unsigned kExifMarker = JPEG_APP0 + 1;
+constexpr std::string_view kExifPrefix("Exif\0\0", 6);
+// Rejects progressive bombs: encoders write about ten scans, never hundreds.
+constexpr int kMaxScans = 500;
+
+// Most of libjpeg's warnings mean lost pixels. These do no harm: stray bytes between segments, odd
+// version numbers, an ICC profile that is not used here anyway.
+bool LosesPixels(int code) {
+  return code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_JFIF_MAJOR &&
+         code != JWRN_BOGUS_ICC;
+}
+
+// libjpeg reports by callbacks into C frames, where exceptions must not pass: it jumps back to
+// Guarded instead.
+struct ErrorManager {
+  jpeg_error_mgr base;  // first, so that libjpeg's pointer is ours
+  jmp_buf jump;
+  char message[JMSG_LENGTH_MAX];
+};
+
+[[noreturn]] void Fail(j_common_ptr info) {
+  ErrorManager* const errors = reinterpret_cast<ErrorManager*>(info->err);
+  info->err->format_message(info, errors->message);
+  longjmp(errors->jump, 1);
+}
+
+void Warn(j_common_ptr info, int level) {
+  if (level < 0 && LosesPixels(info->err->msg_code)) Fail(info);
+}
+
+void CountScans(j_common_ptr info) {
+  if (reinterpret_cast<j_decompress_ptr>(info)->input_scan_number <= kMaxScans) return;
+  ERREXIT(info, JERR_BAD_PROGRESSION);
+}
+
+struct Decompressor {
+  jpeg_decompress_struct info = {};
+  Decompressor() = default;
+  ~Decompressor() { jpeg_destroy_decompress(&info); }  // does nothing before jpeg_create_decompress
+  Decompressor(const Decompressor&) = delete;
+  Decompressor& operator=(const Decompressor&) = delete;
+};
+
+// One file being read. Stays where it is: libjpeg keeps pointers into it.
+class JpegReader {
+ public:
+  explicit JpegReader(std::string_view bytes) {
+    info_.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = Fail;
+    errors_.base.emit_message = Warn;
+    Guarded([&] {
+      jpeg_create_decompress(&info_);
+      jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+      jpeg_save_markers(&info_, kExifMarker, 0xffff);
+      jpeg_read_header(&info_, TRUE);
+    });
+    progress_.progress_monitor = CountScans;
+    info_.progress = &progress_;
+  }
+
+  int width() const { return static_cast<int>(info_.image_width); }
+  int height() const { return static_cast<int>(info_.image_height); }
+  cv::Mat Decode(const DecodeOptions& options);
+  // Whether parts of the picture may be decoded beside each other, and quicker than all in turn.
+  bool Divisible();
+  // Full-size grey rows [first, last) into the same rows of `grey`, CV_8UC1.
+  void DecodeGreyRows(int first, int last, cv::Mat* grey);
+  FileFacts Facts() const;
+
+ private:
+  // `step` must hold no object with a destructor while it calls libjpeg: a jump would skip it.
+  template <typename Step>
+  void Guarded(Step step) {
+    if (setjmp(errors_.jump) != 0) throw std::runtime_error(errors_.message);
+    step();
+  }
+  PixelLayout ChooseLayout(bool colour);
+  void ChooseSize(int long_side);
+  // From the next row to be decoded to `last`.
+  void ReadRows(int last, cv::Mat* pixels);
+
+  Decompressor owner_;
+  jpeg_decompress_struct& info_ = owner_.info;
+  jpeg_progress_mgr progress_ = {};
+  ErrorManager errors_ = {};
+};
+
+PixelLayout JpegReader::ChooseLayout(bool colour) {
+  if (info_.jpeg_color_space == JCS_CMYK || info_.jpeg_color_space == JCS_YCCK) {
+    info_.out_color_space = JCS_CMYK;
+    return info_.saw_Adobe_marker ? PixelLayout::kInvertedCmyk : PixelLayout::kCmyk;
+  }
+  // Luma alone is decoded without touching the colour planes' transforms.
+  info_.out_color_space = colour ? JCS_RGB : JCS_GRAYSCALE;
+  return colour ? PixelLayout::kRgb : PixelLayout::kGrey;
+}
+
+// The smallest of 1/8, 1/4, 1/2, 1 that keeps the longest side.
+void JpegReader::ChooseSize(int long_side) {
+  info_.scale_num = 8;
+  info_.scale_denom = 8;
+  if (long_side <= 0) return;
+  const int full = std::max(width(), height());
+  for (int eighths : {4, 2, 1}) {
+    if ((full * eighths + 7) / 8 >= long_side) info_.scale_num = static_cast<unsigned>(eighths);
+  }
+}
+
+cv::Mat JpegReader::Decode(const DecodeOptions& options) {
+  const PixelLayout layout = ChooseLayout(options.colour);
+  ChooseSize(options.long_side);
+  Guarded([&] { jpeg_start_decompress(&info_); });
+  const int rows = static_cast<int>(std::ceil(options.top_share * info_.output_height));
+  cv::Mat stored =
+      NewPicture(cv::Size(static_cast<int>(info_.output_width), rows), CV_8UC(ChannelsOf(layout)));
+  ReadRows(stored.rows, &stored);
+  return ConvertPixels(stored, layout, options.colour);
+}
+
+void JpegReader::ReadRows(int last, cv::Mat* pixels) {
+  Guarded([&] {
+    while (info_.output_scanline < static_cast<JDIMENSION>(last)) {
+      JSAMPROW row = pixels->ptr<uchar>(static_cast<int>(info_.output_scanline));
+      jpeg_read_scanlines(&info_, &row, 1);
+    }
+  });
+}
+
+bool JpegReader::Divisible() {
+  constexpr double kWorthAThread = 1e6;  // pixels; a thread costs as much as decoding a tenth
+  const bool luma_stored =
+      info_.jpeg_color_space == JCS_YCbCr || info_.jpeg_color_space == JCS_GRAYSCALE;
+  return luma_stored && !jpeg_has_multiple_scans(&info_) &&
+         1.0 * width() * height() > kWorthAThread;
+}
+
+void JpegReader::DecodeGreyRows(int first, int last, cv::Mat* grey) {
+  Guarded([&] {
+    info_.out_color_space = JCS_GRAYSCALE;
+    jpeg_start_decompress(&info_);
+    jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first));
+  });
+  ReadRows(last, grey);
+}
+
+FileFacts JpegReader::Facts() const {
+  FileFacts facts;
+  const bool square = info_.X_density == info_.Y_density && info_.X_density > 0;
+  if (info_.saw_JFIF_marker && square && info_.density_unit == 1) facts.dpi = info_.X_density;
+  if (info_.saw_JFIF_marker && square && info_.density_unit == 2)
+    facts.dpi = info_.X_density * 2.54;
+  for (jpeg_saved_marker_ptr m = info_.marker_list; m != nullptr; m = m->next) {
+    const std::string_view data(reinterpret_cast<const char*>(m->data), m->data_length);
+    if (m->marker != kExifMarker || data.substr(0, kExifPrefix.size()) != kExifPrefix) continue;
+    facts.exif = data.substr(kExifPrefix.size());
+    break;
+  }
+  return facts;
+}
+
+// Two readers, one for the upper rows, one for the lower. Huffman codes cannot be entered half-way,
+// so the second reads those of the upper rows as well: two thirds of the work of decoding them.
+cv::Mat DecodeGreyInTwo(std::string_view bytes, const cv::Size& size) {
+  constexpr double kUpperShare = 0.7;  // both take about as long
+  constexpr int kBlockRows = 16;  // of pictures with halved colour; whole ones are skipped best
+  const int seam = static_cast<int>(kUpperShare * size.height) / kBlockRows * kBlockRows;
+  cv::Mat grey = NewPicture(size, CV_8UC1);
+  ParallelFor(2, [&](int part) {
+    JpegReader reader(bytes);
+    reader.DecodeGreyRows(part == 0 ? 0 : seam, part == 0 ? seam : size.height, &grey);
+  });
+  return grey;
+}
+
+}  // namespace
+
+DecodedPhoto DecodeJpeg(std::string_view bytes, const DecodeOptions& options) {
+  JpegReader reader(bytes);
+  const cv::Size size(reader.width(), reader.height());
+  CheckPhotoSize(size.width, size.height);
+  const bool whole_grey = !options.colour && options.long_side <= 0;
+  const bool in_two = whole_grey && options.num_threads >= 2 && reader.Divisible();
+  return {in_two ? DecodeGreyInTwo(bytes, size) : reader.Decode(options),
+          size.width,
+          size.height,
+          reader.Facts()};
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot/head_search.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "vision/parallel.h"
+#include "vision/pivot/head_place.h"
+#include "vision/pivot/pivot_geometry.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
+double Credence(const Screw& screw) {
+  constexpr double kUsualFlattening = 0.05;
+  const double sigmas = (1 - screw.semi_minor_px / screw.semi_major_px) / kUsualFlattening;
+  return screw.evidence - 0.5 * sigmas * sigmas;
+}
+
+// Heads of screws and rivets are a quarter to four fifths of the shank wide; engraved marks are
+// smaller, and what is as wide as the shank is mostly its own outline.
+ScrewSearch SearchForHead(const ScaleResult& scale,
+                          const Scene& scene,
+                          const Vector2d& guess_px,
+                          double radius_px) {
+  ScrewSearch search;
+  if (scale.sheet && scale.map) search.view = scale.map->JacobianAt(guess_px).inverse();
+  search.min_semi_axis_px = std::max(3.0, 0.13 * scene.shank_width_px);
+  search.max_semi_axis_px = std::max(4.0, 0.4 * scene.shank_width_px);
+  search.guess_px = guess_px;
+  search.radius_px = radius_px;
+  return search;
+}
+
+// About a place on the overlap, as a share of the way from the shanks' crotch to the blades'.
+ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double share) {
+  const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
+  const double radius_px =
+      std::clamp(0.15 * overlap.norm(), 0.3 * scene.shank_width_px, 0.7 * scene.shank_width_px);
+  return SearchForHead(scale, scene, scene.shank_crotch_px + share * overlap, radius_px);
+}
+
+// All about the overlap, for heads beyond doubt: crotches that shadows fill put it elsewhere.
+ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double least_evidence) {
+  constexpr double kOfOverlap = 0.6;
+  const Vector2d overlap = scene.crotch_px - scene.shank_crotch_px;
+  ScrewSearch search = SearchForHead(
+      scale, scene, scene.shank_crotch_px + 0.5 * overlap, kOfOverlap * overlap.norm());
+  search.least_evidence = least_evidence;
+  return search;
+}
+
+// The same for heads wider than usual: a waist that was measured across one shank alone is no wider
+// than the head.
+ScrewSearch SearchWideHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kWidest = 0.6;   // of the members, a head's radius
+  constexpr double kOverlap = 0.8;  // of the widest usual one: between the two none is lost
+  ScrewSearch search = SearchAllAbout(scale, scene, kFaintHead);
+  const double members_px =
+      std::max({scene.shank_width_px, scene.left.width_px, scene.right.width_px});
+  search.min_semi_axis_px = kOverlap * search.max_semi_axis_px;
+  search.max_semi_axis_px = std::max(search.max_semi_axis_px, kWidest * members_px);
+  return search;
+}
+
+// Heads smaller than usual: small ones on broad joints, where joints mostly have theirs; and all
+// about the overlap where the blades are so narrow that the shank looks far too wide, as the
+// silhouette fills a gap beside it.
+ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
+  constexpr double kAtJoint = 0.42;  // of the overlap
+  constexpr double kSmallest = 0.6;  // of the smallest usual head
+  constexpr double kOfBlades = 2.2;  // shanks are no wider
+  constexpr double kOverlap = 1.25;  // of the smallest usual head: between the two none is lost
+  const double blades_px = 0.5 * (scene.left.width_px + scene.right.width_px);
+  const double share = kOfBlades * blades_px / scene.shank_width_px;
+  ScrewSearch search =
+      share < 1 ? SearchAllAbout(scale, scene, kFaintHead) : SearchOverlap(scale, scene, kAtJoint);
+  search.max_semi_axis_px = kOverlap * search.min_semi_axis_px;
+  search.min_semi_axis_px *= std::min(kSmallest, share);
+  return search;
+}
+
+// A half-lit head where geometry puts the pivot: nearly all of two thirds of its rim.
+ScrewSearch SearchHalfLit(const HeadSearch& known) {
+  constexpr double kSigmas = 2;
+  constexpr double kClear = 10;  // elsewhere about the joint one of 700 scenes reaches it
+  const Eigen::Matrix2d& covariance = known.by_geometry.covariance_px2;
+  const double sigma_px = std::sqrt(covariance.eigenvalues().real().maxCoeff());
+  ScrewSearch search =
+      SearchForHead(known.scale,
+                    known.scene,
+                    known.by_geometry.point_px,
+                    std::clamp(kSigmas * sigma_px, 3.0, 0.5 * known.scene.shank_width_px));
+  search.half_lit = true;
+  search.least_evidence = kClear;
+  return search;
+}
+
+// Whether the rim runs through one of the crotches, as outlines about them do and hardly any head.
+bool RunsThroughCrotch(const Screw& screw, const Scene& scene) {
+  constexpr double kNear = 0.2;  // of the radius
+  const auto is_near = [&](const Vector2d& crotch_px) {
+    const double radii = (screw.center_px - crotch_px).norm() / screw.semi_major_px;
+    return std::abs(radii - 1) < kNear;
+  };
+  return is_near(scene.shank_crotch_px) || is_near(scene.crotch_px);
+}
+
+// The head that is seen, unless it is in doubt and runs through a crotch.
+std::optional<Screw> Find(const cv::Mat& grey,
+                          const ScaleResult& scale,
+                          const Scene& scene,
+                          const ScrewSearch& search) {
+  const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
+  if (!screw || screw->evidence > kBeyondDoubt || !RunsThroughCrotch(*screw, scene)) return screw;
+  return std::nullopt;
+}
+
+std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search) {
+  return Find(known.grey, known.scale, known.scene, search);
+}
+
+// What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
+// nearer, so that fewer other arcs compete, and further back. The clearest counts.
+std::optional<Screw> LookForScrew(const HeadSearch& known) {
+  const Scene& scene = known.scene;
+  std::optional<Screw> clearest = known.at_joint;
+  for (const ScrewSearch& search :
+       {SearchForHead(known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
+        SearchOverlap(known.scale, scene, 0.25)}) {
+    if (clearest && clearest->evidence > kBeyondDoubt) break;
+    const std::optional<Screw> screw = FindHere(known, search);
+    if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
+  }
+  return clearest;
+}
+
+// What the edges say of a head: see EdgeAsymmetry.
+double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
+  return EdgeAsymmetry(known.edges, FootBelow(screw, known.scale, known.scene).point_px);
+}
+
+// Whether the edges mirror each other about a head.
+bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
+  return !AreSuspect(AsymmetryAbout(screw, known));
+}
+
+// Whether they would about a place as near to it as it is known. One that lies aside adds to one
+// edge's distance and takes from the other's.
+bool MirrorNear(const Screw& screw, const HeadSearch& known) {
+  if (!known.scale.sheet) return MirrorAbout(screw, known);
+  const PlacePx foot = FootBelow(screw, known.scale, known.scene);
+  const double length_px = 0.5 * ((known.edges.left_px.back() - foot.point_px).norm() +
+                                  (known.edges.right_px.back() - foot.point_px).norm());
+  const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
+  const double asymmetry = std::abs(EdgeAsymmetry(known.edges, foot.point_px));
+  return !AreSuspect(std::max(0.0, asymmetry - by_place));
+}
+
+// Whether they mirror each other as far as the view is known. A slanted one parts edges as well,
+// but hardly so much about what is too flat for a head.
+bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSlanted = 0.1;
+  if (known.scale.sheet) return MirrorAbout(screw, known);
+  return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
+}
+
+// What is seen in seven discs that cover the search: in each, a head is judged by its own
+// surroundings, and by as many candidates as in all of it.
+std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
+                                                   const ScrewSearch& search) {
+  constexpr int kAround = 6;
+  const double half_px = 0.5 * search.radius_px, apart_px = std::sqrt(3.0) * half_px;
+  return ParallelMap(kAround + 1, [&](int i) {
+    const double angle = 2 * std::numbers::pi * i / kAround;
+    ScrewSearch piece = search;
+    piece.radius_px = half_px;
+    if (i < kAround) piece.guess_px += apart_px * Vector2d(std::cos(angle), std::sin(angle));
+    return FindHere(known, piece);
+  });
+}
+
+// Where no head was seen that can be trusted: one further forward; one all about the overlap; a
+// wider or a smaller one; a half-lit one. Necks of members and engraved marks are round, too, but
+// less so than heads; about few of them the edges mirror each other.
+std::optional<Screw> LookFurther(const HeadSearch& known) {
+  // Where the view is known, edges mirror each other about few false heads.
+  constexpr double kUnmistakable = 25, kFaint = 5, kFaintInKnownView = 3.5;
+  const double faintest = known.scale.sheet ? kFaintInKnownView : kFaint;
+  const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
+  if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
+  const auto is_sure = [&](const Screw& screw) {
+    if (screw.evidence > kFaintHead || MirrorNear(screw, known)) return true;
+    return screw.slot && screw.slot->ends_seen && MayMirrorAbout(screw, known);
+  };
+  std::optional<Screw> clearest;
+  const auto is_clearer = [&](const Screw& screw) {
+    return !clearest || screw.evidence > clearest->evidence;
+  };
+  for (const std::optional<Screw>& screw :
+       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, faintest))) {
+    if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
+  }
+  if (clearest) return clearest;
+  for (const ScrewSearch& search :
+       {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
+    const auto other = FindHere(known, search);
+    if (!other || !is_clearer(*other)) continue;
+    if (other->evidence > kUnmistakable || MirrorNear(*other, known)) clearest = other;
+  }
+  if (clearest) return clearest;
+  const auto half = FindHere(known, SearchHalfLit(known));
+  return half && MirrorNear(*half, known) ? half : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Screw> LookAtJoint(const cv::Mat& grey,
+                                 const ScaleResult& scale,
+                                 const Scene& scene) {
+  return Find(grey, scale, scene, SearchOverlap(scale, scene, 0.5));
+}
+
+std::optional<Screw> FindHead(const HeadSearch& search) {
+  const std::optional<Screw> seen = LookForScrew(search);
+  if (seen && (!IsFaint(*seen) || MayMirrorAbout(*seen, search))) return seen;
+  const std::optional<Screw> further = LookFurther(search);
+  return !further && seen && MirrorNear(*seen, search) ? seen : further;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot/pivot.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "vision/image/along_across.h"
+#include "vision/pivot/head_place.h"
+#include "vision/pivot/head_search.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+Pivot FromGeometry(const Scene& scene, const EdgeMirror& mirror) {
+  const Estimate behind = BehindByGeometry(scene, mirror);
+  Pivot pivot;
+  pivot.source = "geometry";
+  pivot.point_px = mirror.point_px - behind.value * mirror.direction;
+  pivot.geometry_px = pivot.point_px;
+  // A blade that is not quite the other's mirror image moves the line: by a few percent of the
+  // shank's width, over photographs by two of the blades' length.
+  constexpr double kOfWidth = 0.05, kOfLength = 0.02;
+  const double across_sigma = std::max(
+      {0.5, kOfWidth * scene.shank_width_px, kOfLength * (mirror.length_px + behind.value)});
+  pivot.covariance_px2 = AlongAcross(mirror.direction, behind.sigma, across_sigma);
+  return pivot;
+}
+
+// What the picture says of the edges' overlap: without a screw, where the members cross.
+Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMirror& mirror) {
+  Estimate behind = BehindByWaist(search.scene, mirror);
+  if (pivot.source != "geometry") {
+    behind = {(mirror.point_px - pivot.point_px).dot(mirror.direction),
+              std::sqrt(mirror.direction.dot(pivot.covariance_px2 * mirror.direction))};
+  }
+  const double length = std::max(1.0, mirror.length_px + behind.value);
+  return {EdgeOverlap(search.edges, mirror.point_px - behind.value * mirror.direction),
+          mirror.sine * behind.sigma / length};
+}
+
+// How far apart two places are, in standard uncertainties of their distance.
+double SigmasApart(const Pivot& a, const Pivot& b) {
+  const Vector2d apart = a.point_px - b.point_px;
+  const Eigen::Matrix2d covariance = a.covariance_px2 + b.covariance_px2;
+  return std::sqrt(apart.dot(covariance.ldlt().solve(apart)));
+}
+
+// The edges about the pivot. Those of bent blades are no mirror images, and nothing is said of
+// them.
+void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
+  pivot->bent = pivot->source != "geometry" && AreBentToOneSide(search.edges, pivot->point_px);
+  pivot->asymmetry = pivot->bent ? 0 : EdgeAsymmetry(search.edges, pivot->point_px);
+  pivot->unlikeness = pivot->bent ? 0 : EdgeUnlikeness(search.edges, pivot->point_px);
+  const Estimate overlap = OverlapSeen(*pivot, search, mirror);
+  pivot->overlap = overlap.value;
+  pivot->overlap_sigma = overlap.sigma;
+  pivot->off_geometry =
+      pivot->source == "geometry" ? 0 : SigmasApart(*pivot, FromGeometry(search.scene, mirror));
+}
+
+}  // namespace
+
+Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
+  const EdgeMirror mirror = MirrorOf(search.edges);
+  Pivot pivot = FromGeometry(search.scene, mirror);
+  if (search.hint_px) {
+    pivot.point_px = *search.hint_px;
+    pivot.covariance_px2.setIdentity();
+    pivot.source = "hint";
+  } else {
+    pivot.screw = FindHead({grey,
+                            scale,
+                            search.scene,
+                            search.edges,
+                            {pivot.point_px, pivot.covariance_px2},
+                            search.at_joint});
+  }
+  if (pivot.screw) {
+    const PlacePx foot = FootBelow(*pivot.screw, scale, search.scene);
+    pivot.point_px = foot.point_px;
+    pivot.covariance_px2 = foot.covariance_px2;
+    pivot.source = "screw";
+  }
+  Compare(search, mirror, &pivot);
+  return pivot;
+}
+
+void CompareEdges(const Scene& scene, const EdgePair& edges, Pivot* pivot) {
+  Compare({scene, edges, std::nullopt}, MirrorOf(edges), pivot);
+}
+
+Pivot PivotByBlades(const Scene& scene, const EdgePair& edges) {
+  const EdgeMirror mirror = MirrorOf(edges);
+  Pivot pivot = FromGeometry(scene, mirror);
+  Compare({scene, edges, std::nullopt}, mirror, &pivot);
+  return pivot;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/catches.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vision/image/nearest_pixel.h"
+#include "vision/image/robust_statistics.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// A shank from where it parts from the other one to its end; `inwards`, a unit vector across it,
+// points to the other one.
+struct Shank {
+  Vector2d from, to, inwards;
+};
+
+Shank ShankTo(const Vector2d& end, const Vector2d& other_end, const Vector2d& crotch) {
+  const Vector2d along = (end - crotch).normalized();
+  const Vector2d across(-along.y(), along.x());
+  return {crotch, end, (other_end - end).dot(across) > 0 ? across : -across};
+}
+
+// Where a shank begins and ends across its line at a share of its length, px inwards of it: the run
+// that lies beside `last` the longest way, or nearest to it; `last` again if there is none.
+Run FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Run& last) {
+  const Vector2d line = shank.to - shank.from;
+  const std::vector<Run> runs =
+      RunsAcross(filled, shank.from + share * line, shank.inwards, kLimbReach * line.norm());
+  const auto beside = [&](const Run& run) {
+    return std::min(run.to, last.to) - std::max(run.from, last.from);
+  };
+  const auto best = std::max_element(
+      runs.begin(), runs.end(), [&](auto& a, auto& b) { return beside(a) < beside(b); });
+  return best == runs.end() ? last : *best;
+}
+
+// The highest rise of a shank's inner side, its outer side being straight there.
+struct Rise {
+  double height_px = 0;
+  double along_px = 0;  // from where the shanks part
+  double width_px = 0;  // of the shank
+};
+
+// How much a shank's inner side leaves the line to its end in a step, typically over first..last.
+double SlopeOf(const std::vector<Run>& sides, int first, int last) {
+  constexpr int kSpan = 12;  // steps; longer than a catch
+  const auto inner = [&](int k) { return sides[static_cast<std::size_t>(k)].to; };
+  std::vector<double> slopes;
+  for (int k = first; k + kSpan <= last; ++k)
+    slopes.push_back((inner(k + kSpan) - inner(k)) / kSpan);
+  return Median(std::move(slopes));
+}
+
+// cut: the frame cuts the ring, so that the line to the shank's end leaves the shank and the corner
+// at which the ring begins rises above that line; a catch rises above the shank's own, too.
+Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
+  constexpr double kStep = 0.01, kFirst = 0.25;  // of the length
+  constexpr int kSteps = 63;                     // rings lie beyond
+  constexpr int kShankFrom = 5, kShankTo = 35;   // steps
+  constexpr int kReach = 10;          // steps; so far on either side of it a catch has ended
+  constexpr double kNarrowest = 2;    // px, of a shank
+  constexpr double kStraight = 0.35;  // of the width; a broken ring's rim goes to that side, too
+  std::vector<Run> sides;
+  std::vector<double> widths;
+  for (int k = 0; k < kSteps; ++k) {
+    const Run last = sides.empty() ? Run{} : sides.back();
+    sides.push_back(FollowTo(filled, shank, kFirst + kStep * k, last));
+    if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().to - sides.back().from);
+  }
+  const double width = std::max(kNarrowest, Median(std::move(widths)));
+  const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
+  const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
+  Rise highest;
+  highest.width_px = width;
+  for (int k = kReach; k + kReach < kSteps; ++k) {
+    const auto at = sides.begin() + k;
+    const auto before = std::min_element(at - kReach, at, nearer);
+    const auto after = std::min_element(at + 1, at + kReach + 1, nearer);
+    const auto base = [&](const auto& beside) {
+      return beside->to + std::max(0.0, slope * static_cast<double>(at - beside));
+    };
+    const double rise = at->to - std::max(base(before), base(after));
+    const double bulge = (std::min(before->from, after->from) - at->from) / width;
+    if (bulge < kStraight && rise > highest.height_px) {
+      highest.height_px = rise;
+      highest.along_px = (kFirst + kStep * k) * (shank.to - shank.from).norm();
+    }
+  }
+  return highest;
+}
+
+}  // namespace
+
+bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
+  constexpr double kHigh = 0.5;  // of the shanks' width; ragged masks of scissors reach 0.4
+  constexpr double kAlike = 0.1;
+  if (!pair.shank_crotch) return false;
+  const auto rise = [&](const Vector2d& end, const Vector2d& other_end) {
+    return HighestRise(filled, ShankTo(end, other_end, *pair.shank_crotch), pair.shanks_run_out);
+  };
+  const Rise first = rise(pair.shank_first, pair.shank_second);
+  const Rise second = rise(pair.shank_second, pair.shank_first);
+  // The shanks of a pair are as wide; a shadow beside one of them is not its own.
+  const double width_px = std::min(first.width_px, second.width_px);
+  return std::min(first.height_px, second.height_px) > kHigh * width_px &&
+         std::abs(first.along_px - second.along_px) <
+             kAlike * std::max(first.along_px, second.along_px);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/limb_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vision/image/nearest_pixel.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// Unit vectors from the pivot to the middles of all that the silhouette shows on the circle about
+// it, ahead of the pair.
+std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
+                                      const Vector2d& pivot,
+                                      const Vector2d& bisector,
+                                      double radius_px) {
+  constexpr double kAhead = 2.0;                   // rad, to either side of the blades' bisector
+  constexpr double kStepPx = 0.5, kNarrowest = 2;  // px; less is a thread, or the mask's raggedness
+  const Vector2d across(-bisector.y(), bisector.x());
+  const auto direction = [&](double angle) -> Vector2d {
+    return std::cos(angle) * bisector + std::sin(angle) * across;
+  };
+  const double step = kStepPx / radius_px;
+  std::vector<Vector2d> directions;
+  double from = -kAhead;  // of what the last places lie in
+  const auto end_at = [&](double to) {
+    if ((to - from) * radius_px > kNarrowest) directions.push_back(direction(0.5 * (from + to)));
+  };
+  for (double at = -kAhead; at <= kAhead; at += step) {
+    if (IsSetAt(filled, pivot + radius_px * direction(at))) continue;
+    end_at(at);
+    from = at + step;
+  }
+  end_at(kAhead);
+  return directions;
+}
+
+// Whether one of the directions is within an angle of another, its cosine given.
+bool AnyAlong(const Vector2d& limb, const std::vector<Vector2d>& directions, double cosine) {
+  return std::any_of(directions.begin(), directions.end(), [&](const Vector2d& direction) {
+    return direction.dot(limb) > cosine;
+  });
+}
+
+}  // namespace
+
+int CountLimbsAhead(const cv::Mat& filled, const BladePair& pair) {
+  constexpr double kNear = 0.4;                          // of the shorter blade
+  constexpr double kFurther[] = {0.55, 0.7};             // the same
+  constexpr double kSame = 0.98558, kAlongShank = 0.95;  // cosines: of 0.17 rad, and 0.32
+  const Vector2d first = pair.first.tip - pair.pivot, second = pair.second.tip - pair.pivot;
+  const Vector2d bisector = (first.normalized() + second.normalized()).normalized();
+  const double length_px = std::min(first.norm(), second.norm());
+  const auto seen_at = [&](double share) {
+    return DirectionsAhead(filled, pair.pivot, bisector, share * length_px);
+  };
+  std::vector<Vector2d> limbs = seen_at(kNear);
+  for (const double share : kFurther) {
+    const std::vector<Vector2d> seen = seen_at(share);
+    std::erase_if(limbs, [&](const Vector2d& limb) { return !AnyAlong(limb, seen, kSame); });
+  }
+  const std::vector<Vector2d> shanks{(pair.shank_first - pair.pivot).normalized(),
+                                     (pair.shank_second - pair.pivot).normalized()};
+  std::erase_if(limbs, [&](const Vector2d& limb) { return AnyAlong(limb, shanks, kAlongShank); });
+  return static_cast<int>(limbs.size());
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/scene/silhouette.h"
+
+namespace bladecurve {
+
+// One blade as the contour shows it, in pixels of the mask. `inner` runs from the crotch to the
+// tip: the cutting edge.
+struct BladeContour {
+  std::vector<Eigen::Vector2d> inner;
+  std::vector<Eigen::Vector2d> outer;  // from the tip back to the concavity beside the pivot
+  Eigen::Vector2d tip;
+  double length = 0;  // crotch to tip
+  double width = 0;   // half way along
+  double taper = 0;   // width near the tip over width half way; a ring or a cut-off shank has > 1
+  double bend = 0;    // sag of the inner side over its length
+  double roughness = 0;  // rms of the inner side about a parabola, over its length
+  bool cut_off = false;  // the end touches the frame
+};
+
+// A deep inlet of the contour: between the hull points `start` and `end`, deepest at `far` (indices
+// into the contour).
+struct Inlet {
+  int start = 0, far = 0, end = 0;
+  double depth = 0;
+};
+
+// A closed contour whose indices wrap round.
+class Outline {
+ public:
+  explicit Outline(const std::vector<cv::Point>& contour) : points_(contour) {}
+
+  [[nodiscard]] int size() const { return static_cast<int>(points_.size()); }
+  [[nodiscard]] int Wrap(int i) const {
+    const bool within = i >= 0 && i < size();  // mostly; a division takes longer than the rest
+    return within ? i : ((i % size()) + size()) % size();
+  }
+  [[nodiscard]] Eigen::Vector2d At(int i) const {
+    const cv::Point& p = points_[static_cast<std::size_t>(Wrap(i))];
+    return {p.x, p.y};
+  }
+  // Points from index `from` on, forwards, up to and with `to`.
+  [[nodiscard]] std::vector<Eigen::Vector2d> Arc(int from, int to) const {
+    std::vector<Eigen::Vector2d> arc;
+    const int steps = Wrap(to - from);
+    arc.reserve(static_cast<std::size_t>(steps) + 1);
+    for (int k = 0; k <= steps; ++k) arc.push_back(At(from + k));
+    return arc;
+  }
+
+ private:
+  const std::vector<cv::Point>& points_;
+};
+
+// The inlets that are too deep for ragged borders and the waists of rings, in contour order.
+[[nodiscard]] std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour);
+
+// Index on the arc `from`..`to` of the point furthest from `origin`, among those that lie ahead of
+// it in `direction`; -1 if none does.
+[[nodiscard]] int FurthestAhead(const Outline& outline,
+                                int from,
+                                int to,
+                                const Eigen::Vector2d& origin,
+                                const Eigen::Vector2d& direction);
+
+// A piece of a line that lies in a silhouette, px along the line.
+struct Run {
+  double from = 0, to = 0;
+};
+
+// The pieces of the line through `center` along the unit vector `across`, up to `reach` px to
+// either side, to half a pixel.
+[[nodiscard]] std::vector<Run> RunsAcross(const cv::Mat& filled,
+                                          const Eigen::Vector2d& center,
+                                          const Eigen::Vector2d& across,
+                                          double reach);
+
+// How far a limb may lie off the line from its root to its end, of its length: RunsAcross's reach.
+inline constexpr double kLimbReach = 0.35;
+
+// Width of the filled silhouette across the line from-to at the share `t` of its length.
+[[nodiscard]] double WidthAcross(const cv::Mat& filled,
+                                 const Eigen::Vector2d& from,
+                                 const Eigen::Vector2d& to,
+                                 double t);
+
+// The blade on one side of the crotch. `inner` from crotch to tip, `outer` from the tip on to the
+// next concavity.
+[[nodiscard]] BladeContour DescribeBlade(const Silhouette& silhouette,
+                                         std::vector<Eigen::Vector2d> inner,
+                                         std::vector<Eigen::Vector2d> outer);
+
+// The free end of a shank: a ring, or where the frame cuts it off.
+struct ShankEnd {
+  Eigen::Vector2d point;
+  double length = 0;
+  double flare = 0;  // widest near the end over the width half way; a ring has > 1.5
+  bool cut_off = false;
+};
+
+// The shank between `shank_crotch` and its end at `point`. `arc`: the contour about it, which may
+// begin as early as at the tip of the blade beside it.
+[[nodiscard]] ShankEnd DescribeShank(const Silhouette& silhouette,
+                                     const cv::Mat& hidden,
+                                     const std::vector<Eigen::Vector2d>& arc,
+                                     const Eigen::Vector2d& point,
+                                     const Eigen::Vector2d& shank_crotch);
+
+}  // namespace bladecurve

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/scene.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/image/cross.h"
+#include "vision/refused.h"
+#include "vision/scene/blades.h"
+#include "vision/scene/catches.h"
+#include "vision/scene/limb_count.h"
+#include "vision/scene/scene_debug.h"
+#include "vision/scene/scene_ladder.h"
+#include "vision/scene/scene_trace.h"
+#include "vision/scene/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// A line through the part of a traced edge that is clear of the crotch: point and unit direction.
+struct FittedLine {
+  Vector2d point, direction;
+};
+
+FittedLine LineThrough(const std::vector<Vector2d>& path, double from_share, double to_share) {
+  const auto first = static_cast<std::size_t>(from_share * static_cast<double>(path.size() - 1));
+  const auto last =
+      std::max(first + 2, static_cast<std::size_t>(to_share * static_cast<double>(path.size())));
+  Vector2d mean = Vector2d::Zero();
+  const std::size_t end = std::min(last, path.size());
+  for (std::size_t i = first; i < end; ++i) mean += path[i];
+  mean /= static_cast<double>(end - first);
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (std::size_t i = first; i < end; ++i)
+    scatter += (path[i] - mean) * (path[i] - mean).transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
+  Vector2d direction = eigen.eigenvectors().col(1);
+  if (direction.dot(path.back() - path.front()) < 0) direction = -direction;
+  return {mean, direction};
+}
+
+// The mask may have filled the gap near the crotch (a shadow) or opened it too far: the straight
+// parts of the two edges, run backwards, say where the blades really cross.
+Vector2d CrossingOfEdges(const std::vector<Vector2d>& a,
+                         const std::vector<Vector2d>& b,
+                         const Vector2d& crotch) {
+  constexpr double kFrom = 0.12;  // clear of the filled part
+  constexpr double kTo = 0.45;    // before a curved blade bends away
+  const FittedLine p = LineThrough(a, kFrom, kTo);
+  const FittedLine q = LineThrough(b, kFrom, kTo);
+  const double sine = Cross(p.direction, q.direction);
+  if (std::abs(sine) < 0.02) return crotch;  // nearly parallel: the crossing is anywhere
+  const Vector2d crossing = p.point + Cross(q.point - p.point, q.direction) / sine * p.direction;
+  const double length = (a.back() - crotch).norm();
+  return (crossing - crotch).norm() < 0.6 * length ? crossing : crotch;
+}
+
+// The path from the crossing on: a straight run to where the traced edge is clear of the crotch,
+// then the traced edge.
+std::vector<Vector2d> StartAt(const Vector2d& crossing, const std::vector<Vector2d>& path) {
+  const double length = (path.back() - crossing).norm();
+  const FittedLine line = LineThrough(path, 0.12, 0.45);
+  std::vector<Vector2d> out;
+  const auto clear = std::find_if(path.begin(), path.end(), [&](const Vector2d& p) {
+    return (p - path.front()).norm() > 0.1 * length &&
+           (p - crossing).dot(line.direction) > 0.1 * length;
+  });
+  if (clear == path.end()) return path;
+  out.push_back(crossing);
+  out.insert(out.end(), clear, path.end());
+  return Resample(out, 1.0);
+}
+
+SceneBlade ToSceneBlade(const ScaledImage& at,
+                        const BladeContour& blade,
+                        const std::vector<Vector2d>& inner) {
+  SceneBlade out;
+  for (const Vector2d& p : inner) out.inner_px.push_back(at.FullFromSmall(p));
+  for (const Vector2d& p : blade.outer) out.outer_px.push_back(at.FullFromSmall(p));
+  std::reverse(out.outer_px.begin(), out.outer_px.end());
+  out.tip_px = at.FullFromSmall(blade.tip);
+  out.width_px = blade.width * at.full_px_per_px();
+  return out;
+}
+
+std::vector<Vector2d> TraceInner(const cv::Mat& image, const BladeContour& blade, int inside) {
+  TraceRange range;
+  range.inwards = std::clamp(
+      0.3 * blade.width, 2.0, 12.0);  // a soft shadow may fill a third of the blade's width
+  range.outwards = 2.0;
+  return TraceStrongestEdge(image, blade.inner, inside, range);
+}
+
+// The waist runs across the axis, hence obliquely across the members that cross there.
+double WidthOfMembers(const BladePair& pair) {
+  const Vector2d first = (pair.first.tip - pair.pivot).normalized();
+  const Vector2d second = (pair.second.tip - pair.pivot).normalized();
+  const double cos_half_opening = 0.5 * (first + second).norm();
+  return pair.shank_width * cos_half_opening;
+}
+
+Scene SceneFrom(const Candidate& found) {
+  const BladePair& pair = found.pair;
+  const ScaledImage& at = *found.at;
+  // `first` runs clockwise before the crotch (y down): seen towards the tips it is the left blade,
+  // and going outwards along its inner edge the metal lies to the left; for `second` to the right.
+  std::vector<Vector2d> left = TraceInner(at.pixels, pair.first, +1);
+  std::vector<Vector2d> right = TraceInner(at.pixels, pair.second, -1);
+  const Vector2d crossing = CrossingOfEdges(left, right, pair.crotch);
+  left = StartAt(crossing, left);
+  right = StartAt(crossing, right);
+  Scene scene;
+  scene.left = ToSceneBlade(at, pair.first, left);
+  scene.right = ToSceneBlade(at, pair.second, right);
+  scene.crotch_px = at.FullFromSmall(crossing);
+  scene.shank_crotch_px = at.FullFromSmall(*pair.shank_crotch);
+  scene.pivot_px = at.FullFromSmall(pair.pivot);
+  scene.pivot_sigma_px = pair.pivot_sigma * at.full_px_per_px();
+  scene.shank_width_px = WidthOfMembers(pair) * at.full_px_per_px();
+  scene.path_sigma_px = at.full_px_per_px();
+  scene.quality = pair.quality;
+  scene.method = found.method;
+  scene.outlined = found.outlined;
+  return scene;
+}
+
+void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
+  if (!ShowsWholeBlades(ladder) && ladder.closed) {
+    throw Refused(
+        Reason::kClosed,
+        "scene: the scissors are closed, or the gap between the blades looks like the "
+        "blades; open them by 5 to 90 degrees so that both cutting edges are free; if they "
+        "are open, expose less, or use another ground or softer light");
+  }
+  if (ladder.best.pair.quality < kAcceptedQuality) {
+    const std::string nearest = ladder.best.pair.doubt.empty()
+                                    ? ""
+                                    : "; the nearest thing fails because " + ladder.best.pair.doubt;
+    throw Refused(
+        Reason::kNotScissors,
+        "scene: no pair of open blades found" + nearest +
+            "; show the scissors open and whole on a plain ground, or point at them with --roi");
+  }
+  const BladePair& pair = ladder.best.pair;
+  if (pair.first.cut_off || pair.second.cut_off) {
+    throw Refused(Reason::kBladesNotVisible,
+                  "scene: a blade runs out of the picture; both tips must be inside the frame");
+  }
+  // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71.
+  constexpr double kTapers = 0.85;
+  const double taper = std::max(pair.first.taper, pair.second.taper);
+  if (pair.shanks_run_out && taper > kTapers && !hints.tips_direction) {
+    throw Refused(Reason::kBladesNotVisible,
+                  "scene: what stays in the picture does not taper as blades do; if these are the "
+                  "shanks, take a picture with both tips inside the frame; if they are the blades, "
+                  "say where their tips point: --tips-toward left, right, up or down");
+  }
+  if (ladder.several) {
+    throw Refused(Reason::kSeveralScissors,
+                  "scene: more than one pair of scissors; choose one with --roi X,Y,W,H");
+  }
+}
+
+// Instruments whose limbs look like those of scissors, and blades that one view does not show.
+void RefuseOtherInstruments(const LadderResult& ladder, const StoredHints& hints) {
+  constexpr int kThings = 6;
+  constexpr double kAngled = 0.3;  // rad
+  if (hints.pivot_px) return;
+  const Candidate& found = ladder.best;
+  const std::vector<Silhouette> things = FindSilhouettes(found.mask, kThings);
+  const Silhouette* own = ThingAt(things, found.pair.pivot);
+  if (own != nullptr && CountLimbsAhead(own->filled, found.pair) > 2) {
+    throw Refused(Reason::kSeveralScissors,
+                  "scene: more than two blades cross at one place, or hard shadows that look like "
+                  "more; part the instruments, use softer light, or say where the screw is: "
+                  "--pivot X,Y");
+  }
+  if (TurnAtJoint(ladder) > kAngled) {
+    throw Refused(Reason::kOutOfPlane,
+                  "scene: the blades are set at an angle to the shanks, as those of bandage "
+                  "scissors are; if they lie flat, say where the screw is: --pivot X,Y");
+  }
+  if (own != nullptr && ShanksCarryCatches(own->filled, found.pair)) {
+    throw Refused(Reason::kNotScissors,
+                  "scene: both shanks carry a catch, as those of clamps and needle holders do, "
+                  "which do not cut; if these are scissors, say where the screw is: --pivot X,Y");
+  }
+}
+
+}  // namespace
+
+SceneFinder::SceneFinder(const Photo& photo,
+                         const std::vector<SeenMarker>& markers,
+                         const StoredHints& hints,
+                         StageLog* log)
+    : hints_(hints),
+      log_(log),
+      ladder_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log))) {
+  RefuseUnlessUsable(*ladder_, hints_);
+}
+
+SceneFinder::~SceneFinder() = default;
+
+Scene SceneFinder::Likeliest() const {
+  RefuseOtherInstruments(*ladder_, hints_);
+  Scene scene = SceneFrom(ladder_->best);
+  scene.second_look = looked_again_;
+  if (hints_.pivot_px) {
+    scene.pivot_px = *hints_.pivot_px;
+    scene.pivot_sigma_px = 1;
+  }
+  if (scene.IsDoubtful()) scene.warnings.push_back("scene_doubtful");
+  log_->Ran("trace", "edges followed on the small picture");
+  if (log_->wants_pictures()) log_->Picture("scene", DrawScene(ladder_->best, scene));
+  return scene;
+}
+
+void SceneFinder::LookAgain() {
+  *ladder_ = WithoutMaskOfBest(std::move(*ladder_));
+  RefuseUnlessUsable(*ladder_, hints_);
+  looked_again_ = true;
+}
+
+}  // namespace bladecurve

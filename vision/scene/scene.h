@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/photo/photo.h"
+#include "vision/scale/scale.h"
+#include "vision/stage_log.h"
+
+namespace bladecurve {
+
+// A blade where scene finding sees it; stored full-resolution pixels, a few off.
+struct SceneBlade {
+  std::vector<Eigen::Vector2d> inner_px;  // from near the crotch to the tip: the cutting edge
+  std::vector<Eigen::Vector2d> outer_px;  // from beside the pivot to the tip, as the mask shows it
+  Eigen::Vector2d tip_px;
+  double width_px = 0;  // half way along
+};
+
+// The scissors in the picture.
+struct Scene {
+  SceneBlade left, right;  // seen from the pivot towards the tips, in the stored picture
+  Eigen::Vector2d crotch_px;
+  Eigen::Vector2d shank_crotch_px;  // the concavity behind the pivot, between the shanks
+  Eigen::Vector2d pivot_px;         // where the members cross
+  double pivot_sigma_px = 0;
+  double shank_width_px = 0;  // of the members where they cross, across each
+  double path_sigma_px = 0;   // how far off the paths may be
+  double quality = 0;         // 0 to 1
+  std::string method;         // the rung of the ladder that gave it
+  bool outlined = false;     // by sharp lines alone, which may be those of a bevel or a hard shadow
+  bool second_look = false;  // what a likelier mask showed was refused
+  std::vector<std::string> warnings;
+
+  // Whether another silhouette may be as likely.
+  [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined || second_look; }
+};
+
+// Hints in stored pixels.
+struct StoredHints {
+  std::optional<cv::Rect> roi_px;
+  std::optional<Eigen::Vector2d> pivot_px;
+  std::optional<Eigen::Vector2d> tips_direction;  // unit
+};
+
+struct LadderResult;
+
+// Finds the scissors: in the likeliest mask or, where what that one shows proves to be no blades,
+// in another.
+class SceneFinder {
+ public:
+  // Climbs the ladder of methods, the cheap ones first, until the geometry is consistent. Throws
+  // Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kTooSmall}.
+  SceneFinder(const Photo& photo,
+              const std::vector<SeenMarker>& markers,
+              const StoredHints& hints,
+              StageLog* log);
+  ~SceneFinder();
+
+  // Throws Refused{kNotScissors, kSeveralScissors, kOutOfPlane}.
+  [[nodiscard]] Scene Likeliest() const;
+
+  // Drops the mask that showed the likeliest scene. Throws like the constructor where no other mask
+  // shows any.
+  void LookAgain();
+
+ private:
+  StoredHints hints_;
+  StageLog* log_;
+  std::unique_ptr<LadderResult> ladder_;
+  bool looked_again_ = false;
+};
+
+}  // namespace bladecurve

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/scene_candidate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "vision/image/nearest_pixel.h"
+#include "vision/image/robust_statistics.h"
+#include "vision/scene/closed_shape.h"
+#include "vision/scene/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp border's transition
+
+// Median difference between `reach` px on both sides of a path that is moved `aside` px to one
+// side, in the units of the image.
+double TransitionAcross(const cv::Mat& image,
+                        const std::vector<Vector2d>& path,
+                        double reach,
+                        double aside = 0) {
+  std::vector<double> steps;
+  const auto value = [&](const Vector2d& p, int c) {
+    const int x = std::clamp(NearestPixel(p.x()), 0, image.cols - 1);
+    const int y = std::clamp(NearestPixel(p.y()), 0, image.rows - 1);
+    return static_cast<double>(image.ptr<float>(y)[x * image.channels() + c]);
+  };
+  for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
+    const Vector2d along = (path[i + 3] - path[i - 3]).normalized();
+    const Vector2d across(along.y(), -along.x());
+    const Vector2d here = path[i] + (aside + reach) * across;
+    const Vector2d there = path[i] + (aside - reach) * across;
+    double squared = 0;
+    for (int c = 0; c < image.channels(); ++c)
+      squared += std::pow(value(here, c) - value(there, c), 2);
+    steps.push_back(std::sqrt(squared));
+  }
+  return steps.empty() ? 0 : Median(steps);
+}
+
+// Shadows that pass for blades reach 0.25, blades on the same photographs have 0.45 and more.
+constexpr double kSoft = 0.25, kSharp = 0.4;
+
+// How much of the transition across a contour is that of one sharp line. Beside a soft shadow, or
+// on texture, a blade's contour may run a little off its edge; a sharp line there counts for less,
+// as it may be another one.
+double SharpnessOf(const cv::Mat& image, const std::vector<Vector2d>& path, double near) {
+  constexpr double kSoftReach = 5;  // px of the small picture: most of a soft shadow's transition
+  constexpr double kMostAside = 4;
+  constexpr double kSharpBeside = 0.5,
+                   kCounts = 0.36;  // soft borders reach 0.36 beside the contour
+  const double far = std::max(1e-6, TransitionAcross(image, path, kSoftReach));
+  if (near > kCounts * far) return near / far;
+  for (double aside = -kMostAside; aside <= kMostAside; ++aside) {
+    if (TransitionAcross(image, path, kSharpReach, aside) > kSharpBeside * far) return kCounts;
+  }
+  return near / far;
+}
+
+// Fills in strength and sharpness. Of the two inner edges the weaker and the softer counts: a
+// shadow that passes for a blade has a soft border.
+void JudgeEdges(const BladePair& pair, Candidate* candidate) {
+  const cv::Mat& image = candidate->at->pixels;
+  candidate->strength = std::numeric_limits<double>::infinity();
+  candidate->sharpness = std::numeric_limits<double>::infinity();
+  for (const BladeContour* blade : {&pair.first, &pair.second}) {
+    const double near = TransitionAcross(image, blade->inner, kSharpReach);
+    candidate->strength = std::min(candidate->strength, near);
+    candidate->sharpness = std::min(candidate->sharpness, SharpnessOf(image, blade->inner, near));
+  }
+}
+
+void DoubtSoftEdges(Candidate* candidate) {
+  const double grade = std::clamp((candidate->sharpness - kSoft) / (kSharp - kSoft), 0.0, 1.0);
+  candidate->pair.quality *= grade;
+  if (grade >= candidate->pair.worst_grade) return;
+  candidate->pair.worst_grade = grade;
+  candidate->pair.doubt = "an edge is soft like a shadow's";
+}
+
+// What a mask shows besides `one` thing, without specks.
+cv::Mat OtherThings(const cv::Mat& mask, const Silhouette& one, double least_area) {
+  cv::Mat rest = mask.clone();
+  rest.setTo(0, one.filled);
+  cv::Mat labels, statistics, centers;
+  const int count = cv::connectedComponentsWithStats(rest, labels, statistics, centers);
+  std::vector<uchar> kept(static_cast<std::size_t>(count), 0);
+  for (int label = 1; label < count; ++label) {
+    if (statistics.at<int>(label, cv::CC_STAT_AREA) > least_area)
+      kept[static_cast<std::size_t>(label)] = 255;
+  }
+  for (int row = 0; row < rest.rows; ++row) {
+    for (int col = 0; col < rest.cols; ++col)
+      rest.at<uchar>(row, col) = kept[static_cast<std::size_t>(labels.at<int>(row, col))];
+  }
+  return rest;
+}
+
+// Whether something lies where a blade points, or a little beside, soon beyond its tip.
+bool GoesOn(const cv::Mat& mask, const BladePair& pair, const BladeContour& blade) {
+  constexpr double kFrom = 0.05, kSoon = 0.5, kBeside = 0.25, kLong = 0.35;  // of the length
+  constexpr double kSoonWidths = 3;                                          // of the shanks
+  const Vector2d along = (blade.tip - pair.pivot).normalized(), across(-along.y(), along.x());
+  const auto is_set = [&](double way, double beside) {
+    return IsSetAt(mask, blade.tip + way * along + beside * across);
+  };
+  const double beside = kBeside * blade.length;
+  const double soon = std::max(kSoon * blade.length, kSoonWidths * pair.shank_width);
+  double first = -1, length = 0;
+  for (double way = kFrom * blade.length; way < soon + blade.length; ++way) {
+    bool any = false;
+    for (double aside = -beside; aside <= beside && !any; ++aside) any = is_set(way, aside);
+    if (!any) continue;
+    if (first < 0) first = way;
+    if (first > soon) return false;
+    ++length;
+  }
+  return length > kLong * blade.length;
+}
+
+// Blades beyond whose tips other things go on are stubs of shanks, of whose outline some was lost.
+void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pair) {
+  constexpr double kLeastArea = 0.5;  // of a square as wide as the shanks
+  const cv::Mat others =
+      OtherThings(mask, silhouette, kLeastArea * pair->shank_width * pair->shank_width);
+  if (!GoesOn(others, *pair, pair->first) || !GoesOn(others, *pair, pair->second)) return;
+  pair->quality = pair->worst_grade = 0;
+  pair->doubt = "both blades go on beyond their tips";
+}
+
+bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
+  if (hints.tips_direction) {
+    const Vector2d towards = 0.5 * (pair.first.tip + pair.second.tip) - pair.pivot;
+    if (towards.normalized().dot(*hints.tips_direction) < 0.5) return false;
+  }
+  if (hints.pivot_px) {
+    // Of narrow scissors the silhouette puts the pivot a third of the blades' length off.
+    const double off = (at.FullFromSmall(pair.pivot) - *hints.pivot_px).norm();
+    if (off > std::max(2 * pair.shank_width, 0.7 * pair.first.length) * at.full_px_per_px())
+      return false;
+  }
+  return true;
+}
+
+// Fills in `agreeing`.
+void CountAgreeing(std::vector<Candidate>* candidates) {
+  for (Candidate& a : *candidates) {
+    a.agreeing = static_cast<int>(
+        std::count_if(candidates->begin(), candidates->end(), [&](const Candidate& b) {
+          return SameBlades(a, b);
+        }));
+  }
+}
+
+}  // namespace
+
+double SizeOf(const BladePair& pair) { return std::max(pair.first.length, pair.second.length); }
+
+bool SameBlades(const Candidate& a, const Candidate& b) {
+  const double near = 0.25 * a.at->full_px_per_px() * SizeOf(a.pair);
+  const auto apart = [&](const Vector2d& p, const Vector2d& q) {
+    return (a.at->FullFromSmall(p) - b.at->FullFromSmall(q)).norm() > near;
+  };
+  return !apart(a.pair.pivot, b.pair.pivot) && !apart(a.pair.first.tip, b.pair.first.tip) &&
+         !apart(a.pair.second.tip, b.pair.second.tip);
+}
+
+Rung SeenIn(const cv::Mat& mask,
+            const Candidate& like,
+            const cv::Mat& hidden,
+            const StoredHints& hints) {
+  constexpr int kMostThings = 4;         // a ruler, a card, a label, and the scissors
+  constexpr double kWorthKeeping = 0.2;  // what clutter reaches
+  constexpr double kPlainlyOpen = 0.8;
+  Rung seen;
+  for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
+    double quality = 0;
+    for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
+      if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
+      if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
+      Candidate candidate = like;
+      JudgeEdges(pair, &candidate);
+      candidate.pair = std::move(pair);
+      if (!like.outlined) DoubtSoftEdges(&candidate);
+      candidate.mask = mask;
+      quality = candidate.pair.quality;
+      seen.candidates.push_back(std::move(candidate));
+      break;  // the likeliest pair of each thing
+    }
+    if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
+  }
+  return seen;
+}
+
+void Add(Rung seen, Rung* rung) {
+  std::move(seen.candidates.begin(), seen.candidates.end(), std::back_inserter(rung->candidates));
+  rung->closed += seen.closed;
+  CountAgreeing(&rung->candidates);
+}
+
+}  // namespace bladecurve

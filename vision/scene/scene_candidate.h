@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "vision/scene/blades.h"
+#include "vision/scene/scene_view.h"
+
+namespace bladecurve {
+
+// A pair of blades that some rung of the ladder found.
+struct Candidate {
+  BladePair pair;
+  std::shared_ptr<const ScaledImage> at;
+  cv::Mat mask;
+  std::string method;  // "grey", "colour", "shadow-blind", "flood", "regions"
+  double threshold = 0;
+  bool outlined = false;  // the mask ends at sharp borders, of which a soft shadow has none
+  double strength =
+      0;  // mean transition across the inner edges: the right threshold has the strongest
+  double sharpness = 0;  // of the softer inner edge: 1 for a step, 0.3 for a soft shadow
+  int agreeing = 0;      // thresholds of the same rung that found the same blades
+};
+
+// Length of the longer blade, px of the small picture.
+[[nodiscard]] double SizeOf(const BladePair& pair);
+
+[[nodiscard]] bool SameBlades(const Candidate& a, const Candidate& b);
+
+// What one rung of the ladder saw.
+struct Rung {
+  std::vector<Candidate> candidates;
+  int closed = 0;    // masks in which something looks like closed scissors
+  cv::Mat distance;  // from the background, or how sharply it is walled in; CV_32FC1
+};
+
+// What one mask shows and does not contradict the hints; `like` gives picture, method and
+// threshold. `hidden` as for FindBladePairs.
+[[nodiscard]] Rung SeenIn(const cv::Mat& mask,
+                          const Candidate& like,
+                          const cv::Mat& hidden,
+                          const StoredHints& hints);
+
+// Adds what another mask of the same rung shows, and counts anew which candidates agree.
+void Add(Rung seen, Rung* rung);
+
+}  // namespace bladecurve

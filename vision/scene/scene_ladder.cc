@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/scene_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/image/nearest_pixel.h"
+#include "vision/image/robust_statistics.h"
+#include "vision/refused.h"
+#include "vision/scene/scene_debug.h"
+#include "vision/scene/scene_rungs.h"
+#include "vision/scene/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr int kSmallestSide = 120;  // no blade of such a picture has an edge that could be measured
+
+// Likelihood first; among thresholds that see the same blades the one whose contour lies on the
+// strongest transition.
+double Merit(const Candidate& c) {
+  return Likelihood(c.pair) *
+         std::sqrt(std::min(c.agreeing, 4) * c.strength * SizeOf(c.pair) * c.at->full_px_per_px());
+}
+
+// What could be accepted first, however many masks agree on what could not.
+bool Better(const Candidate& a, const Candidate& b) {
+  const bool a_usable = a.pair.quality >= kAcceptedQuality;
+  const bool b_usable = b.pair.quality >= kAcceptedQuality;
+  return a_usable != b_usable ? a_usable : Merit(a) > Merit(b);
+}
+
+// How well a mask's contour follows the blades' edges: on a strong transition, and smoothly.
+double Fidelity(const Candidate& c) {
+  constexpr double kRough = 0.015;  // of the length; a contour that changes lines half way has it
+  const double roughness = std::max(c.pair.first.roughness, c.pair.second.roughness) / kRough;
+  return c.strength / (1 + roughness * roughness);
+}
+
+constexpr double kSurelyScissors = 0.8;  // quality
+
+// A pair that is small, or partly out of the picture, but shows in many masks: no shank does.
+bool IsOftenSeen(const Candidate& c) {
+  constexpr double kLikely = 0.3;
+  constexpr int kMasks = 6;
+  return c.pair.quality > kLikely && c.agreeing >= kMasks;
+}
+
+double FullSize(const Candidate& c) { return SizeOf(c.pair) * c.at->full_px_per_px(); }
+
+// Whether the mask of `c` shows it as another thing than the one that `best` is part of.
+bool StandsApart(const Candidate& c, const Candidate& best) {
+  const Eigen::Vector2d& own_tip = c.pair.first.tip;
+  if (!IsSetAt(c.mask, own_tip)) return false;
+  cv::Mat others = c.mask.clone();
+  cv::floodFill(others, NearestPixel(own_tip), 0);
+  bool shown = false;
+  for (const Eigen::Vector2d& part : {best.pair.pivot, best.pair.first.tip, best.pair.second.tip}) {
+    const Eigen::Vector2d place = c.at->SmallFromFull(best.at->FullFromSmall(part));
+    if (IsSetAt(c.mask, place) && !IsSetAt(others, place)) return false;
+    shown = shown || IsSetAt(others, place);
+  }
+  return shown;
+}
+
+// Whether `c` shows a second pair of scissors beside the best: as good a one elsewhere, or a
+// poorer one that is a thing of its own, and no texture.
+bool IsSecondPair(const Candidate& c, const Candidate& best) {
+  constexpr double kLikely = 0.3, kBeyondDoubt = 0.85;  // quality
+  constexpr double kSmallest = 0.4, kFaintest = 0.2;    // of the best
+  const double apart_px =
+      (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
+  if (apart_px <= FullSize(best)) return false;
+  const bool seen_alike =
+      c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best.method;
+  if (best.pair.quality > kSurelyScissors && (seen_alike || IsOftenSeen(c))) return true;
+  const bool comparable =
+      FullSize(c) > kSmallest * FullSize(best) && c.strength > kFaintest * best.strength;
+  const bool likely = c.pair.quality > (c.agreeing >= 2 ? kLikely : kBeyondDoubt);
+  return comparable && likely && StandsApart(c, best);
+}
+
+// Whether the mask shows another thing that is no sheet, label or ruler, which fill their outlines:
+// another instrument, perhaps not all of it.
+bool ShowsAnother(const Candidate& best) {
+  constexpr int kThings = 6;
+  constexpr double kLeastArea = 0.1;  // of the scissors'
+  constexpr double kFilled = 0.6;     // share of its convex hull
+  const std::vector<Silhouette> things = FindSilhouettes(best.mask, kThings);
+  const Silhouette* own = ThingAt(things, best.pair.pivot);
+  if (own == nullptr) return false;
+  return std::any_of(things.begin(), things.end(), [&](const Silhouette& thing) {
+    if (&thing == own || thing.area_px < kLeastArea * own->area_px) return false;
+    std::vector<cv::Point> hull;
+    cv::convexHull(thing.contour, hull);
+    return thing.area_px < kFilled * cv::contourArea(hull);
+  });
+}
+
+LadderResult Choose(const std::vector<Candidate>& candidates) {
+  LadderResult result;
+  const Candidate* best = nullptr;
+  for (const Candidate& c : candidates) {
+    if (best == nullptr || Better(c, *best)) best = &c;
+  }
+  if (best == nullptr) return result;
+  const Candidate* truest = best;
+  for (const Candidate& c : candidates) {
+    const bool as_good = c.pair.quality > 0.95 * best->pair.quality && SameBlades(c, *best);
+    if (as_good && Fidelity(c) > Fidelity(*truest)) truest = &c;
+    result.several = result.several || IsSecondPair(c, *best);
+  }
+  result.best = *truest;
+  return result;
+}
+
+// Several thresholds must agree; fewer where the outline is as sharp as the lens allows.
+bool Consistent(const LadderResult& result) {
+  constexpr double kSurelySharp = 0.8;
+  const int enough = result.best.sharpness >= kSurelySharp ? 2 : 3;
+  return result.best.pair.quality >= 0.9 && result.best.agreeing >= enough;
+}
+
+// Adds what a rung saw to what is known, and draws it where pictures are wanted.
+LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* log) {
+  if (log->wants_pictures()) log->Picture(name, DrawRung(rung));
+  std::move(rung.candidates.begin(), rung.candidates.end(), std::back_inserter(all->candidates));
+  all->closed = std::max(all->closed, rung.closed);
+  LadderResult result = Choose(all->candidates);
+  constexpr int kAgreeing = 3;  // fewer masks may show by chance what looks like that
+  result.closed = all->closed >= kAgreeing;
+  return result;
+}
+
+// Fills in what all rungs saw.
+LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
+  LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
+  log->Ran("scene-grey", "the cheapest look");
+  const bool grey_suffices = Consistent(result);
+  if (grey_suffices && !ShowsAnother(result.best)) {
+    log->Skipped("scene-colour", "grey gave a consistent scene");
+    return result;
+  }
+  const ColourPictures colour = SmallColour(view, kSmallSide);
+  Consider(ColourRung(view, colour), "rung-colour", all, log);
+  const LadderResult in_colour =
+      Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", all, log);
+  if (grey_suffices) {
+    log->Ran("scene-colour", "another thing lies beside the scissors");
+    result.several = result.several || in_colour.several;
+    return result;
+  }
+  result = in_colour;
+  log->Ran("scene-colour", "grey did not separate the blades");
+  if (Consistent(result)) {
+    log->Skipped("scene-flood", "colour gave a consistent scene");
+    return result;
+  }
+  const Outlines outlines = OutlinesIn(view);
+  result = Consider(FloodRung(view, outlines), "rung-flood", all, log);
+  log->Ran("scene-flood", "no threshold separates the blades");
+  if (ShowsWholeBlades(result)) {
+    log->Skipped("scene-regions", "the flood left blades dry");
+    return result;
+  }
+  result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
+  log->Ran("scene-regions", "the flood ran into the blades");
+  return result;
+}
+
+}  // namespace
+
+bool ShowsWholeBlades(const LadderResult& result) {
+  const BladePair& pair = result.best.pair;
+  return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
+}
+
+double TurnAtJoint(const LadderResult& result) {
+  std::vector<double> turns;
+  for (const Candidate& c : result.seen) {
+    if (c.pair.quality >= kAcceptedQuality && SameBlades(c, result.best))
+      turns.push_back(TurnAtJoint(c.pair));
+  }
+  return Median(turns);
+}
+
+LadderResult ClimbLadder(const Photo& photo,
+                         const std::vector<SeenMarker>& markers,
+                         const StoredHints& hints,
+                         StageLog* log) {
+  const SceneView view(photo, markers, hints);
+  if (std::min(view.window.area_px.width, view.window.area_px.height) < kSmallestSide) {
+    throw Refused(Reason::kTooSmall,
+                  "scene: the picture is less than " + std::to_string(kSmallestSide) +
+                      " px high or wide; use a larger photograph");
+  }
+  Rung all;
+  LadderResult result = Climb(view, &all, log);
+  result.seen = std::move(all.candidates);
+  return result;
+}
+
+LadderResult WithoutMaskOfBest(LadderResult result) {
+  std::vector<Candidate> seen = std::move(result.seen);
+  std::erase_if(seen, [&](const Candidate& c) { return c.mask.data == result.best.mask.data; });
+  LadderResult next = Choose(seen);
+  next.closed = result.closed;
+  next.seen = std::move(seen);
+  return next;
+}
+
+}  // namespace bladecurve

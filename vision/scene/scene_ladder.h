@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "vision/scene/scene.h"
+#include "vision/scene/scene_candidate.h"
+
+namespace bladecurve {
+
+// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
+// and more.
+inline constexpr double kAcceptedQuality = 0.45;
+
+struct LadderResult {
+  Candidate best;               // quality 0 if nothing was found
+  bool several = false;         // two good pairs in different places
+  bool closed = false;          // something looks like closed scissors, in several masks of a rung
+  std::vector<Candidate> seen;  // by all rungs, the best among them
+};
+
+// Whether blades were found that could be measured.
+[[nodiscard]] bool ShowsWholeBlades(const LadderResult& result);
+
+// Median over the masks that show the same blades well enough, rad: a single one may lose the turn
+// where a ring merges with a shadow or a shank is not seen to its end.
+[[nodiscard]] double TurnAtJoint(const LadderResult& result);
+
+// Tries one rung after the other until one gives a consistent pair of blades; logs what ran and
+// why.
+[[nodiscard]] LadderResult ClimbLadder(const Photo& photo,
+                                       const std::vector<SeenMarker>& markers,
+                                       const StoredHints& hints,
+                                       StageLog* log);
+
+// What the other masks show best, without climbing on.
+[[nodiscard]] LadderResult WithoutMaskOfBest(LadderResult result);
+
+}  // namespace bladecurve

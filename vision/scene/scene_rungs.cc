@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/scene_rungs.h"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "vision/parallel.h"
+#include "vision/scene/flood.h"
+#include "vision/scene/region_merging.h"
+#include "vision/scene/sharp_gradient.h"
+#include "vision/scene/silhouette.h"
+
+namespace bladecurve {
+namespace {
+
+// In units of the background's scatter. Below 2 it is all background, above 64 nothing is left of
+// most blades. The likely ones first.
+constexpr double kThresholds[] = {8, 16, 4, 24, 6, 12, 3, 32, 2, 48, 64};
+
+// So many thresholds show the same good blades that more of them would change nothing.
+constexpr int kEnough = 5;
+
+bool Settled(const std::vector<Candidate>& candidates) {
+  constexpr double kGood = 0.9;
+  constexpr double kSharp = 0.5;
+  return std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) {
+    return c.agreeing >= kEnough && c.pair.quality >= kGood && c.sharpness >= kSharp;
+  });
+}
+
+std::vector<double> ThresholdsUpTo(const cv::Mat& distance) {
+  double most = 0;
+  cv::minMaxLoc(distance, nullptr, &most);
+  std::vector<double> thresholds(std::begin(kThresholds), std::end(kThresholds));
+  std::erase_if(thresholds, [&](double threshold) { return threshold > most; });
+  return thresholds;
+}
+
+cv::Mat Smooth(const cv::Mat& distance) {
+  cv::Mat smooth(distance.size(), distance.type());
+  ParallelForBands(distance.rows, [&](int first, int last) {
+    cv::Mat band = smooth.rowRange(first, last);  // its neighbours count as well
+    cv::GaussianBlur(distance.rowRange(first, last), band, {}, 0.8);
+  });
+  return smooth;
+}
+
+// Threshold after threshold until they settle. How many are looked at together changes nothing.
+Rung ThresholdAll(const cv::Mat& distance,
+                  const cv::Mat& hidden,
+                  const Candidate& like,
+                  const StoredHints& hints) {
+  const cv::Mat smooth = Smooth(distance);
+  const std::vector<double> thresholds = ThresholdsUpTo(smooth);
+  const int all = static_cast<int>(thresholds.size());
+  Rung rung;
+  rung.distance = distance;
+  for (int first = 0; first < all && !Settled(rung.candidates);) {
+    const int count = std::min(all - first, first == 0 ? kEnough : UsableThreads());
+    std::vector<Rung> seen = ParallelMap(count, [&](int i) {
+      Candidate at_threshold = like;
+      at_threshold.threshold = thresholds[static_cast<std::size_t>(first + i)];
+      return SeenIn(MaskAbove(smooth, at_threshold.threshold), at_threshold, hidden, hints);
+    });
+    for (Rung& mask : seen) {
+      if (Settled(rung.candidates)) break;
+      Add(std::move(mask), &rung);
+    }
+    first += count;
+  }
+  return rung;
+}
+
+cv::Mat LabDistance(const SceneView& view, const ColourPictures& colour) {
+  const BackgroundModel background = FitBackground(colour.lab->pixels, colour.ignore);
+  cv::Mat distance = DistanceFromBackground(colour.lab->pixels, background, view.LocalWindow());
+  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
+  return distance;
+}
+
+// What lies above a level, without the specks of grain that cling to it, and without its outermost
+// pixel, which is outline.
+cv::Mat MaskAboveLevel(const cv::Mat& levels, double level, int speck_px) {
+  cv::Mat mask = levels > level;
+  cv::morphologyEx(mask,
+                   mask,
+                   cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {speck_px, speck_px}));
+  cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  return mask;
+}
+
+// Adds what shows above levels that are in units of the usual gradient. Below the lowest all is
+// apart; above the highest, most metal is background.
+void AddLevels(const cv::Mat& levels,
+               int speck_px,
+               const Candidate& like,
+               const SceneView& view,
+               const cv::Mat& ignore,
+               Rung* rung) {
+  constexpr double kLevels[] = {1.4, 2, 2.8, 4, 5.6, 8, 11, 16, 22, 32};
+  std::vector<Rung> seen = ParallelMap(static_cast<int>(std::size(kLevels)), [&](int i) {
+    Candidate at_level = like;
+    at_level.threshold = kLevels[i];
+    return SeenIn(
+        MaskAboveLevel(levels, at_level.threshold, speck_px), at_level, ignore, view.hints);
+  });
+  for (Rung& mask : seen) Add(std::move(mask), rung);
+  rung->distance = levels;
+}
+
+}  // namespace
+
+Rung GreyRung(const SceneView& view) {
+  const auto at = std::make_shared<const ScaledImage>(SmallGrey(view, kSmallSide));
+  const cv::Mat ignore = view.MarkerMask(*at);
+  const BackgroundModel background = FitBackground(at->pixels, ignore);
+  cv::Mat distance = DistanceFromBackground(at->pixels, background, view.LocalWindow());
+  if (!ignore.empty()) distance.setTo(0, ignore);
+  return ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, view.hints);
+}
+
+Rung ColourRung(const SceneView& view, const ColourPictures& colour) {
+  const Candidate like{{}, colour.lab, {}, "colour"};
+  return ThresholdAll(LabDistance(view, colour), colour.ignore, like, view.hints);
+}
+
+Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
+  cv::Mat light;
+  colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
+  const BackgroundModel background = FitBackground(light, colour.ignore);
+  cv::Mat distance = DistanceFromShadedBackground(light, background, view.LocalWindow());
+  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
+  const Candidate like{{}, colour.lab, {}, "shadow-blind"};
+  return ThresholdAll(distance, colour.ignore, like, view.hints);
+}
+
+Outlines OutlinesIn(const SceneView& view) {
+  Outlines outlines{SmallColour(view, kOutlineSide), {}, {}};
+  const ColourPictures& colour = outlines.colour;
+  outlines.ground = GroundAtFrame(LabDistance(view, colour));
+  const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
+  for (const int closed_px : {3, 5})
+    outlines.closed.push_back({closed_px, Walls(sharp_gradient, closed_px, colour.ignore)});
+  return outlines;
+}
+
+Rung FloodRung(const SceneView& view, const Outlines& outlines) {
+  const ColourPictures& colour = outlines.colour;
+  const Candidate like{{}, colour.lab, {}, "flood"};
+  Rung rung;
+  for (const auto& [closed_px, walls] : outlines.closed) {
+    cv::Mat levels = FloodLevels(walls, outlines.ground);
+    if (!colour.ignore.empty()) levels.setTo(0, colour.ignore);
+    // Walls are thicker than what they enclose by half of what was closed, so that much may go.
+    AddLevels(levels, closed_px, like, view, colour.ignore, &rung);
+  }
+  return rung;
+}
+
+Rung RegionRung(const SceneView& view, const Outlines& outlines) {
+  constexpr int kSpeckPx = 5;
+  const ColourPictures& colour = outlines.colour;
+  cv::Mat ground = outlines.ground.clone();
+  if (!colour.ignore.empty()) ground.setTo(255, colour.ignore);
+  Candidate like{{}, colour.lab, {}, "regions"};
+  like.outlined = true;
+  Rung rung;
+  for (const auto& [closed_px, walls] : outlines.closed)
+    AddLevels(MergingLevels(walls, ground), kSpeckPx, like, view, colour.ignore, &rung);
+  return rung;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/scene/scene_candidate.h"
+#include "vision/scene/scene_view.h"
+
+namespace bladecurve {
+
+// Sides of the small pictures, px. Blades of a sixth of the picture keep 100 px; more costs time
+// and finds no more. Walls are pixels thick: gaps between blades need more of them.
+inline constexpr int kSmallSide = 640;
+inline constexpr int kOutlineSide = 960;
+
+// By lightness alone.
+[[nodiscard]] Rung GreyRung(const SceneView& view);
+// By colour and lightness (Lab).
+[[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
+// By what a shadow does not do to the background.
+[[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
+
+// The sharp outlines of a picture, which two rungs go by.
+struct Outlines {
+  ColourPictures colour;
+  cv::Mat ground;  // as GroundAtFrame gives it
+  // Wider gaps closed keep together faint outlines, narrower ones blades with little between them.
+  struct ClosedWalls {
+    int closed_px = 0;
+    cv::Mat walls;
+  };
+  std::vector<ClosedWalls> closed;
+};
+[[nodiscard]] Outlines OutlinesIn(const SceneView& view);
+
+// By sharp outlines without a gap, whatever the colours.
+[[nodiscard]] Rung FloodRung(const SceneView& view, const Outlines& outlines);
+// By outlines that are sharp on the average of their length. Soft shadows have none; but a bevel's
+// or a hard shadow's line is one, too.
+[[nodiscard]] Rung RegionRung(const SceneView& view, const Outlines& outlines);
+
+}  // namespace bladecurve

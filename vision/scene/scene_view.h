@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/photo/photo.h"
+#include "vision/scale/scale.h"
+#include "vision/scene/background.h"
+#include "vision/scene/scene.h"
+
+namespace bladecurve {
+
+// A small version of the photograph, or of a part of it.
+struct ScaledImage {
+  cv::Mat pixels;  // CV_32FC1 (lightness, 0 to 100) or CV_32FC3 (Lab)
+  Window window;
+
+  [[nodiscard]] double full_px_per_px() const { return window.area_px.width / pixels.cols; }
+  [[nodiscard]] Eigen::Vector2d FullFromSmall(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d origin(window.area_px.x, window.area_px.y);
+    return (p + Eigen::Vector2d(0.5, 0.5)) * full_px_per_px() + origin - Eigen::Vector2d(0.5, 0.5);
+  }
+  [[nodiscard]] Eigen::Vector2d SmallFromFull(const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d origin(window.area_px.x, window.area_px.y);
+    return (p + Eigen::Vector2d(0.5, 0.5) - origin) / full_px_per_px() - Eigen::Vector2d(0.5, 0.5);
+  }
+};
+
+// What scene finding looks at: the photograph, or the part of it that the user points at.
+struct SceneView {
+  const Photo& photo;
+  const std::vector<SeenMarker>& markers;
+  const StoredHints& hints;
+  Window window;
+
+  SceneView(const Photo& photo, const std::vector<SeenMarker>& markers, const StoredHints& hints);
+
+  // The window as the small pictures and the background see it: coordinates start at its corner.
+  [[nodiscard]] Window LocalWindow() const;
+  // Non-zero on the printed markers and their white margins, which are not scissors; empty if there
+  // are none.
+  [[nodiscard]] cv::Mat MarkerMask(const ScaledImage& at) const;
+};
+
+// Lightness, longest side about `longest` px; a few px of the border may be left out.
+[[nodiscard]] ScaledImage SmallGrey(const SceneView& view, int longest);
+
+struct ColourPictures {
+  cv::Mat bgr;  // CV_8UC3
+  std::shared_ptr<const ScaledImage> lab;
+  cv::Mat ignore;  // the markers
+};
+[[nodiscard]] ColourPictures SmallColour(const SceneView& view, int longest);
+
+}  // namespace bladecurve

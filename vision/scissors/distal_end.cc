@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/distal_end.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSmooth = 4;  // a cubic: cutting edges bend no more than that over their length
+constexpr double kProximalFrom = 0.06;  // the crotch may still be blurred there
+constexpr double kEarliest = 0.70;      // tips round off in the last third at most
+
+// The edge in the frame of its chord: position along it in [0, 1] of its length, offset across it
+// in px, towards the blade.
+struct ChordFrame {
+  std::vector<double> along, across_px;
+  double length_px = 0;
+};
+
+ChordFrame InChordFrame(const std::vector<Vector2d>& edge) {
+  ChordFrame frame;
+  const Vector2d origin = edge.front();
+  const Vector2d axis = AlongChord(edge);
+  const Vector2d normal(-axis.y(), axis.x());
+  frame.length_px = (edge.back() - origin).dot(axis);
+  for (const Vector2d& p : edge) {
+    frame.along.push_back((p - origin).dot(axis) / frame.length_px);
+    frame.across_px.push_back((p - origin).dot(normal));
+  }
+  return frame;
+}
+
+// Least squares of a cubic plus a bend k max(0, t - t0)^2 that sets in at t0: the tip's rounding.
+struct BendFit {
+  double squares = 0;
+  double bend_px = 0;  // k
+};
+
+BendFit FitBend(const ChordFrame& edge, double t0) {
+  Eigen::Matrix<double, kSmooth + 1, kSmooth + 1> normal;
+  Eigen::Matrix<double, kSmooth + 1, 1> right;
+  normal.setZero();
+  right.setZero();
+  double sum = 0;
+  Eigen::Matrix<double, kSmooth + 1, 1> row;
+  for (std::size_t i = 0; i < edge.along.size(); ++i) {
+    const double t = edge.along[i];
+    if (t < kProximalFrom) continue;
+    const double d = std::max(0.0, t - t0);
+    const double s = 2 * t - 1;
+    row << 1, s, s * s, s * s * s, d * d;
+    normal += row * row.transpose();
+    right += row * edge.across_px[i];
+    sum += edge.across_px[i] * edge.across_px[i];
+  }
+  normal.diagonal().array() += 1e-12 * normal.trace();  // without points beyond t0 there is no bend
+  const Eigen::Matrix<double, kSmooth + 1, 1> c = normal.ldlt().solve(right);
+  return {std::max(0.0, sum - c.dot(right)), c[kSmooth]};
+}
+
+// Where the edge leaves its smooth course.
+DistalEnd FindBend(const std::vector<Vector2d>& edge, double sigma_px) {
+  const ChordFrame frame = InChordFrame(edge);
+  const double last = frame.along.back();
+  const double step = std::max(0.25, frame.length_px / 1000) / frame.length_px;
+  const BendFit straight = FitBend(frame, 2 * last);
+  double best_t = last;
+  double best = straight.squares;
+  std::vector<double> places;
+  std::vector<double> squares;
+  for (double t = kEarliest; t < last; t += step) {
+    const BendFit fit = FitBend(frame, t);
+    places.push_back(t);
+    squares.push_back(fit.squares);
+    // A tip's radius is a fraction of the blade's width; a bend wider than a fifth of the length is
+    // the edge's own curve.
+    const double radius =
+        frame.length_px / std::max(1e-9, 2 * std::abs(fit.bend_px) / frame.length_px);
+    if (fit.squares < best && radius < 0.2 * frame.length_px) {
+      best = fit.squares;
+      best_t = t;
+    }
+  }
+  // Neighbouring points are correlated: an improvement of that many squared sigmas may be chance.
+  constexpr double kChance = 12;
+  const double scatter = std::max(sigma_px, std::sqrt(best / static_cast<double>(edge.size())));
+  if (straight.squares - best < kChance * scatter * scatter) best_t = last;
+  double low = best_t;
+  double high = best_t;
+  for (std::size_t k = 0; k < squares.size(); ++k) {
+    if (squares[k] > best + kChance * scatter * scatter) continue;
+    low = std::min(low, places[k]);
+    high = std::max(high, places[k]);
+  }
+  DistalEnd end;
+  const auto after =
+      std::find_if(frame.along.begin(), frame.along.end(), [&](double t) { return t >= best_t; });
+  end.index = static_cast<std::size_t>(after - frame.along.begin());
+  end.point_px = edge[std::min(end.index, edge.size() - 1)];
+  end.along_sigma_px = std::max(0.5, 0.3 * (high - low) * frame.length_px);
+  return end;
+}
+
+// Where the tip's arc leaves the edge.
+DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double along_sigma_px) {
+  const Vector2d along = AlongChord(edge);
+  const auto beyond = std::find_if(
+      edge.begin(), edge.end(), [&](const Vector2d& p) { return (p - cap.end_px).dot(along) > 0; });
+  return {cap.end_px, static_cast<std::size_t>(beyond - edge.begin()), along_sigma_px};
+}
+
+// `edge_step` as from FollowStep: an arc across which the picture steps the other way is rather
+// that of a shadow.
+DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap, double edge_step) {
+  // The arc's start is known to a few tenths of its radius: real tips are not quite round.
+  DistalEnd end =
+      EndAtCap(edge, cap, std::hypot(0.5, std::hypot(cap.scatter_px, 0.25 * cap.radius_px)));
+  end.arc_seen = true;
+  end.evidence = cap.step * edge_step < 0 ? 0 : cap.Evidence();
+  return end;
+}
+
+// How far before the presumed tip the edge is lost.
+double LostBeforeTip(const std::vector<Vector2d>& edge, const Vector2d& tip_px) {
+  return (tip_px - edge.back()).dot(AlongChord(edge));
+}
+
+// The end by the edge's own course or by what tips usually are, where no arc is seen.
+DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
+                        const EndSearch& search,
+                        const std::optional<Vector2d>& step_end_px) {
+  const TipCap usual = UsualTipCap(edge, search.tip);
+  const double usual_sigma_px = std::hypot(usual.radius_px, 0.5 * search.tip.reach_px);
+  const DistalEnd bend = FindBend(edge, search.edge_sigma_px);
+  // Far before the presumed tip, or where the step across the edge goes on far beyond it, a bend is
+  // no tip.
+  constexpr double kFar = 3;  // standard uncertainties of where tips usually begin
+  const auto is_far_before = [&](const Vector2d& place_px) {
+    return (place_px - bend.point_px).dot(AlongChord(edge)) > kFar * usual_sigma_px;
+  };
+  const bool goes_on = is_far_before(usual.end_px) || (step_end_px && is_far_before(*step_end_px));
+  if (!goes_on && bend.along_sigma_px < usual_sigma_px) return bend;
+  const double unseen_px = std::max(0.0, LostBeforeTip(edge, search.tip.tip_px));
+  return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
+}
+
+// So many lines do not end on an arc by chance, nor do fewer on one that is as round as tips are.
+bool IsCertain(const TipCap& cap) {
+  constexpr int kMany = 12, kSome = 8;  // lines
+  constexpr double kRound = 0.15;       // px of scatter
+  return cap.seen >= kMany || (cap.seen >= kSome && cap.scatter_px < kRound);
+}
+
+// The arc at another place than the presumed tip, if it is clear.
+std::optional<TipCap> ClearCapAt(const Vector2d& place_px,
+                                 const cv::Mat& grey,
+                                 const std::vector<Vector2d>& edge,
+                                 TipSearch search) {
+  constexpr double kClearArc = 1;  // px of scatter
+  search.tip_px = place_px;
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search);
+  return cap && cap->scatter_px < kClearArc ? cap : std::nullopt;
+}
+
+// An arc elsewhere than at the presumed tip, where the step across the edge ends: grain or a shadow
+// may have been taken for metal, or a part of the blade for background.
+std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
+                                   const std::vector<Vector2d>& edge,
+                                   const TipSearch& presumed,
+                                   const std::optional<Vector2d>& step_end_px) {
+  if (!step_end_px || (*step_end_px - presumed.tip_px).norm() < presumed.reach_px)
+    return std::nullopt;
+  return ClearCapAt(*step_end_px, grey, edge, presumed);
+}
+
+// Whether the step across the edge goes on far beyond an arc: that is no tip's.
+bool GoesOnBeyond(const TipCap& cap,
+                  const std::vector<Vector2d>& edge,
+                  const TipSearch& presumed,
+                  const std::optional<Vector2d>& step_end_px) {
+  constexpr double kFar = 1.5;  // times as far as the presumed tip may be off
+  return step_end_px &&
+         (*step_end_px - cap.end_px).dot(AlongChord(edge)) > kFar * presumed.reach_px;
+}
+
+// Arcs before the presumed tip, up to a blade's width, at which the picture steps as it does across
+// the edge: the presumed tip may be that of the blade's shadow.
+std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
+                                  const std::vector<Vector2d>& edge,
+                                  const TipSearch& presumed,
+                                  double edge_step) {
+  const Vector2d along = AlongChord(edge);
+  std::vector<DistalEnd> ends;
+  for (double back_px = presumed.reach_px; back_px < presumed.blade_width_px + presumed.reach_px;
+       back_px += presumed.reach_px) {
+    const auto cap = ClearCapAt(presumed.tip_px - back_px * along, grey, edge, presumed);
+    if (cap && cap->step * edge_step > 0) ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
+  }
+  return ends;
+}
+
+}  // namespace
+
+DistalEnds FindDistalEnds(const cv::Mat& grey,
+                          const std::vector<Vector2d>& edge,
+                          const EndSearch& search) {
+  constexpr std::size_t kFewest = 12;
+  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
+  if (edge.size() < kFewest) {
+    const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
+    return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
+  }
+  const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
+  const bool clear = cap && cap->scatter_px < kClearArc;
+  const FollowedStep followed = FollowStep(grey, edge, search.tip);
+  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
+  const auto and_rival = [&](std::vector<DistalEnd> ends) {
+    if (rival) ends.push_back(EndAtSeenCap(edge, *rival, followed.step));
+    return ends;
+  };
+  const auto before = [&] { return EndsBefore(grey, edge, search.tip, followed.step); };
+  if (clear && !rival && GoesOnBeyond(*cap, edge, search.tip, followed.end_px)) {
+    EndSearch further = search;
+    further.tip.tip_px = *followed.end_px;
+    return {EndWithoutCap(edge, further, followed.end_px),
+            {EndAtSeenCap(edge, *cap, followed.step)}};
+  }
+  if (clear) {
+    const DistalEnd end = EndAtSeenCap(edge, *cap, followed.step);
+    return {end, and_rival(end.evidence > 0 ? std::vector<DistalEnd>{} : before())};
+  }
+  // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
+  // mirror the background.
+  const bool beyond = rival && (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
+  if (rival && (beyond || IsCertain(*rival)))
+    return {EndAtSeenCap(edge, *rival, followed.step), {}};
+  return {EndWithoutCap(edge, search, followed.end_px), and_rival(before())};
+}
+
+}  // namespace bladecurve

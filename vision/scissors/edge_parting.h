@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/scissors/mirror_line.h"
+
+namespace bladecurve {
+
+// Where the edges, elsewhere each other's mirror images about the line through the pivot, part
+// towards their ends, one of them has gone over to another line: a bevel's inner border that meets
+// the edge at the tip, the other blade's edge at the crotch. That end is cut off: of the edge that
+// leaves its own course there, of both where either might. Edges of blades that are bent to one
+// side part as well, but as parabolas do, from end to end, or over more than a third of an edge:
+// they stay, the latter as `edges_part`.
+void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades);
+
+}  // namespace bladecurve

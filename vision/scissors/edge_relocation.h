@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/scissors/mirror_line.h"
+
+namespace bladecurve {
+
+// Whether one edge may have been lost: they are more unlike than any view makes them, and one is
+// clear while the other is not.
+[[nodiscard]] bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& blades);
+
+// Blades mirror each other about the line through the pivot, unless both are bent to one side.
+// Where the edges do not, one of them is looked for anew, trimmed, and pivot->asymmetry says how
+// alike the two are then:
+// - a lost one, where the other puts it, if it is as clear there as the other;
+// - of edges in a view of known tilt (markers), from a little difference on, the outer one inside
+// of
+//   it, where a shadow begins that accounts for the difference;
+// - both, at the inner sides of the bands beside them, if those mirror each other;
+// - the one that stands out more clearly where the other puts it, or alone is seen there, further
+//   out than it was, and not less surely if the pivot may account for the difference; if neither
+//   does, the inner one along the other's mirror image, if they differ by more than the pivot may
+//   be off and that lies on a faint border along its whole; if it does not either, the vaguer one
+//   is doubted by as much as they differ;
+// - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
+//   one, if it is seen where the other puts it.
+// None is moved to beyond the part of its blade that faces the gap.
+// Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
+// not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
+// as those of scissors do stay where they were if they would hardly pass by it elsewhere.
+void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
+
+}  // namespace bladecurve

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/end_pair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "vision/scale/plane_map.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// A blade's length in the plane of the edges, from the pivot to its distal end.
+struct Reach {
+  Vector2d along_px = Vector2d::Zero();  // unit, along the edge towards the tip
+  double length = 0;
+  double sigma = 0;
+  bool outwards = false;  // the edge runs away from the pivot at its end, as cutting edges do
+  double per_px = 0;      // growth of the length as the end moves along the edge
+  Vector2d per_pivot_px = Vector2d::Zero();  // the same as the pivot moves
+};
+
+// Of the edge's last quarter, clear of the tip.
+Vector2d DirectionAtEnd(const LocatedBlade& blade) {
+  const Vector2d& from = blade.used[blade.used.size() * 3 / 4].trend_px;
+  return (blade.used.back().trend_px - from).normalized();
+}
+
+Reach ReachOf(const PlaneMap& map,
+              const Vector2d& pivot_px,
+              const LocatedBlade& blade,
+              const DistalEnd& end) {
+  const auto length = [&](const Vector2d& from_px, const Vector2d& to_px) {
+    return (map.PlaneFromImage(to_px) - map.PlaneFromImage(from_px)).norm();
+  };
+  const Vector2d& end_px = end.point_px;
+  Reach reach;
+  reach.along_px = DirectionAtEnd(blade);
+  reach.length = length(pivot_px, end_px);
+  reach.per_px = length(pivot_px, end_px + reach.along_px) - reach.length;
+  reach.sigma = reach.per_px * end.along_sigma_px;
+  constexpr double kOutwards = 0.7;  // cosine; edges keep within 30 degrees of the ray to their end
+  reach.outwards = reach.per_px > kOutwards * length(end_px, end_px + reach.along_px);
+  for (int k = 0; k < 2; ++k)
+    reach.per_pivot_px[k] = length(pivot_px + Vector2d::Unit(k), end_px) - reach.length;
+  return reach;
+}
+
+// `by` in units of the length, outwards.
+void MoveEnd(const Reach& reach, double by, LocatedBlade* blade) {
+  DistalEnd& end = blade->end;
+  end.point_px += by / reach.per_px * reach.along_px;
+  end.index = 0;
+  for (const LocatedEdgePoint& p : blade->edge.points) {
+    if (!p.inlier) continue;
+    if ((p.point_px - end.point_px).dot(reach.along_px) > 0) break;
+    ++end.index;
+  }
+}
+
+void SetSigma(const Reach& reach, double sigma, LocatedBlade* blade) {
+  blade->end.along_sigma_px = sigma / reach.per_px;
+}
+
+// The two lengths side by side.
+struct Comparison {
+  Reach upper, lower;
+  double gap = 0;       // upper less lower
+  double unlike = 0;    // by how much equal blades may differ as seen, standard
+  double variance = 0;  // of the gap
+
+  [[nodiscard]] bool Contradicts() const {
+    constexpr double kContradict = 3;  // standard uncertainties
+    return std::abs(gap) > kContradict * std::sqrt(variance);
+  }
+  [[nodiscard]] bool Outwards() const { return upper.outwards && lower.outwards; }
+};
+
+Comparison Compare(const ScaleResult& scale,
+                   const Pivot& pivot,
+                   const Blades& blades,
+                   const DistalEnd& upper_end,
+                   const DistalEnd& lower_end) {
+  // Of the length. Blades are ground in pairs; but photographed freely one of them looks up to an
+  // eighth shorter.
+  constexpr double kMade = 0.005, kSeenAtASlant = 0.06;
+  const PlaneMap map = scale.map.value_or(PlaneMap::Uniform(1, 0, kPixelsSource));
+  Comparison both;
+  both.upper = ReachOf(map, pivot.point_px, blades.upper, upper_end);
+  both.lower = ReachOf(map, pivot.point_px, blades.lower, lower_end);
+  both.gap = both.upper.length - both.lower.length;
+  const Vector2d per_pivot_px = both.upper.per_pivot_px - both.lower.per_pivot_px;
+  both.unlike = std::hypot((scale.sheet ? kMade : kSeenAtASlant) * both.upper.length,
+                           std::sqrt(per_pivot_px.dot(pivot.covariance_px2 * per_pivot_px)));
+  both.variance = both.upper.sigma * both.upper.sigma + both.lower.sigma * both.lower.sigma +
+                  both.unlike * both.unlike;
+  return both;
+}
+
+// Least squares of the two lengths and their likeness. Afterwards the two errors are alike, and the
+// opening angle takes their sum: each end gets half the sum's variance, as if they were
+// independent.
+void Fuse(const Comparison& both, Blades* blades) {
+  const double upper = both.upper.sigma * both.upper.sigma;
+  const double lower = both.lower.sigma * both.lower.sigma;
+  const double sum = upper + lower - (upper - lower) * (upper - lower) / both.variance;
+  MoveEnd(both.upper, -both.gap * upper / both.variance, &blades->upper);
+  MoveEnd(both.lower, both.gap * lower / both.variance, &blades->lower);
+  SetSigma(both.upper, std::sqrt(sum / 2), &blades->upper);
+  SetSigma(both.lower, std::sqrt(sum / 2), &blades->lower);
+}
+
+// The upper blade's end is put at the lower one's length, or the other way round.
+void Follow(const Comparison& both, bool upper_follows, Blades* blades) {
+  constexpr double kOfGap = 0.1;  // the edge is followed that far without being seen to the end
+  const Reach& reach = upper_follows ? both.upper : both.lower;
+  const Reach& known = upper_follows ? both.lower : both.upper;
+  LocatedBlade& blade = upper_follows ? blades->upper : blades->lower;
+  MoveEnd(reach, upper_follows ? -both.gap : both.gap, &blade);
+  SetSigma(reach, std::hypot(known.sigma, both.unlike, kOfGap * both.gap), &blade);
+}
+
+// Nobody knows which of the two is wrong.
+void DoubtBoth(const Comparison& both, Blades* blades) {
+  constexpr double kShare = 0.5;
+  const double doubt = kShare * both.gap;
+  SetSigma(both.upper, std::hypot(both.upper.sigma, doubt), &blades->upper);
+  SetSigma(both.lower, std::hypot(both.lower.sigma, doubt), &blades->lower);
+}
+
+// Whether an arc is seen across which the picture steps the other way than across the edge.
+bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
+
+// Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
+// of tips and borders of bevels end elsewhere on the two blades, or are fainter. One arc beside an
+// end without any, where the likely one is a shadow's.
+void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
+  constexpr double kMoreClearly = 1.5;  // times the evidence of the likely ends
+  const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
+    const Comparison both = Compare(scale, pivot, *blades, upper, lower);
+    return both.Outwards() && !both.Contradicts() ? upper.evidence + lower.evidence : 0;
+  };
+  const DistalEnd upper = blades->upper.end, lower = blades->lower.end;
+  const auto candidates = [](const LocatedBlade& blade) {
+    std::vector<DistalEnd> ends{blade.end};
+    ends.insert(ends.end(), blade.rival_ends.begin(), blade.rival_ends.end());
+    return ends;
+  };
+  double most = kMoreClearly * evidence(upper, lower);
+  for (const DistalEnd& u : candidates(blades->upper)) {
+    for (const DistalEnd& l : candidates(blades->lower)) {
+      const double seen = evidence(u, l);
+      const bool both_seen = u.arc_seen && l.arc_seen;
+      if (seen <= most || !(both_seen || IsShadows(upper) || IsShadows(lower))) continue;
+      most = seen;
+      blades->upper.end = u;
+      blades->lower.end = l;
+    }
+  }
+}
+
+}  // namespace
+
+void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
+  ChooseAlikeEnds(scale, pivot, blades);
+  const Comparison both = Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
+  if (!both.Outwards()) return;
+  blades->ends_contradict = both.Contradicts();
+  if (!scale.sheet) return;
+  if (!blades->ends_contradict) {
+    Fuse(both, blades);
+  } else if (blades->upper.end.arc_seen != blades->lower.end.arc_seen) {
+    Follow(both, blades->lower.end.arc_seen, blades);
+  } else {
+    DoubtBoth(both, blades);
+  }
+}
+
+}  // namespace bladecurve

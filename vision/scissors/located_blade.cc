@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/located_blade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "vision/edge/edge_curve.h"
+#include "vision/image/along_across.h"
+#include "vision/image/robust_statistics.h"
+#include "vision/refused.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+std::vector<Vector2d> InlierPoints(const LocatedEdge& edge) {
+  std::vector<Vector2d> points;
+  for (const LocatedEdgePoint& p : edge.points) {
+    if (p.inlier) points.push_back(p.point_px);
+  }
+  return points;
+}
+
+// Nearer to the crossing, light of the other blade's edge reaches this one. px.
+double ClearOfCrossing(const LocatedEdge& edge) {
+  const double blur = BlurOr(edge, 1);
+  return 4 * blur + 2;
+}
+
+// Near the end the windows of the edge fit, 50 px long and of long edges twice that, reach round
+// the tip and bend the edge. px.
+double SmearedByTip(const std::vector<Vector2d>& points) {
+  constexpr double kSmearedPx = 56, kMostOfEdge = 0.10;
+  if (points.empty()) return 0;
+  return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
+}
+
+// What is uncertain about where the edge lies, beside an offset that both edges share. px^2.
+double AloneVariance(const LocatedEdge& edge, double shared_px) {
+  return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - shared_px * shared_px);
+}
+
+}  // namespace
+
+void TrimToFree(const Photo& photo,
+                const Scene& scene,
+                LocatedBlade* blade,
+                const std::vector<Vector2d>& beyond) {
+  std::vector<Vector2d> points = InlierPoints(blade->edge);
+  points.insert(points.end(), beyond.begin(), beyond.end());
+  const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
+  const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
+  TipSearch tip{seen.tip_px, reach_px, seen.width_px, blade->on_left};
+  tip.blur_px = BlurOr(blade->edge, tip.blur_px);
+  DistalEnds ends = FindDistalEnds(photo.grey(), points, {tip, MedianSigma(blade->edge.points)});
+  blade->end = ends.likely;
+  blade->rival_ends = std::move(ends.rivals);
+  KeepFree(scene, blade);
+}
+
+void KeepFree(const Scene& scene, LocatedBlade* blade) {
+  const std::vector<Vector2d> points = InlierPoints(blade->edge);
+  const double clear = ClearOfCrossing(blade->edge);
+  const double smeared = SmearedByTip(points);
+  std::size_t index = 0;
+  blade->used.clear();
+  for (const LocatedEdgePoint& p : blade->edge.points) {
+    if (!p.inlier) continue;
+    if (index++ >= blade->end.index) break;
+    if ((p.point_px - scene.crotch_px).norm() > clear &&
+        (p.point_px - blade->end.point_px).norm() > smeared) {
+      blade->used.push_back(p);
+    }
+  }
+  constexpr std::size_t kFewest = 20;  // a shorter edge says little about a curve
+  if (blade->used.size() < kFewest) {
+    throw Refused(Reason::kEdgeTooShort,
+                  "edges: only " + std::to_string(blade->used.size()) +
+                      " px of free cutting edge; open the scissors wider or go nearer");
+  }
+}
+
+void PlaceEndOnCourse(LocatedBlade* blade) {
+  const std::optional<PlaceOnCourse> place =
+      AbreastOnCourse(blade->edge.points,
+                      {blade->edge.correlation_px, SmearedByTip(InlierPoints(blade->edge))},
+                      blade->end.point_px);
+  if (!place) return;
+  blade->end.point_px = place->point_px;
+  blade->end.across_sigma_px = place->across_sigma_px;
+}
+
+Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px) {
+  const Vector2d across = blade.used.back().normal;
+  const Vector2d along(-across.y(), across.x());
+  const double across_sigma = std::hypot(blade.used.back().sigma_px,
+                                         std::sqrt(AloneVariance(blade.edge, shared_px)),
+                                         blade.end.across_sigma_px);
+  return AlongAcross(along, blade.end.along_sigma_px, across_sigma);
+}
+
+std::vector<Vector2d> PointsOf(const LocatedBlade& blade) {
+  std::vector<Vector2d> points;
+  for (const LocatedEdgePoint& p : blade.used) points.push_back(p.point_px);
+  return points;
+}
+
+double MedianSigma(const std::vector<LocatedEdgePoint>& points) {
+  if (points.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> sigmas;
+  for (const LocatedEdgePoint& p : points) sigmas.push_back(p.sigma_px);
+  return Median(std::move(sigmas));
+}
+
+double EdgeSigmaPx(const LocatedBlade& blade) {
+  return std::hypot(MedianSigma(blade.used), blade.edge.common_sigma_px);
+}
+
+std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
+  std::vector<LocatedEdgePoint> points = lower.used;
+  const double alone_px2 = AloneVariance(lower.edge, upper_common_px);
+  if (!(alone_px2 > 0)) return points;
+  const double length_px = (points.back().point_px - points.front().point_px).norm();
+  const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
+  const double variance_px2 = alone_px2 * std::max(1.0, independent);
+  for (LocatedEdgePoint& point : points) {
+    point.sigma_px = std::sqrt(point.sigma_px * point.sigma_px + variance_px2);
+  }
+  return points;
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "vision/edge/edge.h"
+#include "vision/photo/photo.h"
+#include "vision/scene/scene.h"
+#include "vision/scissors/distal_end.h"
+
+namespace bladecurve {
+
+// A cutting edge as located, and where it rounds off into the tip; stored pixels.
+struct LocatedBlade {
+  bool on_left = true;
+  LocatedEdge edge;
+  DistalEnd end;
+  std::vector<DistalEnd> rival_ends;   // where it may lie instead
+  std::vector<LocatedEdgePoint> used;  // inliers between the crotch and the distal end
+  std::string moved = {};              // to where, if the edge was located anew; else empty
+};
+
+// Both blades of a pair, trimmed.
+struct Blades {
+  LocatedBlade upper, lower;
+  bool ends_contradict = false;  // one lies further from the pivot than the other, beyond doubt
+  bool edges_part = false;       // mirror images but over more than a third of an edge
+};
+
+// Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
+// near, and that end. Throws Refused{kEdgeTooShort}.
+// `beyond`: where the edge is known to go on towards the tip although it is not seen.
+void TrimToFree(const Photo& photo,
+                const Scene& scene,
+                LocatedBlade* blade,
+                const std::vector<Eigen::Vector2d>& beyond = {});
+
+// The same for an end that is known. Throws Refused{kEdgeTooShort}.
+void KeepFree(const Scene& scene, LocatedBlade* blade);
+
+// Moves the distal end across the edge, onto the course of its points: the arc of the tip tells how
+// far the edge goes, not where it lies. Sets the end's across_sigma_px.
+void PlaceEndOnCourse(LocatedBlade* blade);
+
+// Of the distal end, but for an offset of standard uncertainty `shared_px` that all points and both
+// ends share: across the edge like a point of it, along the edge as found. px^2.
+[[nodiscard]] Eigen::Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px);
+
+// The points used, without their uncertainties.
+[[nodiscard]] std::vector<Eigen::Vector2d> PointsOf(const LocatedBlade& blade);
+
+// NaN for no points.
+[[nodiscard]] double MedianSigma(const std::vector<LocatedEdgePoint>& points);
+// The same of a blade's edge, what its points have in common counted.
+[[nodiscard]] double EdgeSigmaPx(const LocatedBlade& blade);
+
+// The lower edge's points as the fit is to take them: it tells what they share from nothing but
+// what both edges share. Where the lower edge is more doubtful than the upper one, its points
+// become so uncertain that their mean is as doubtful as the edge.
+[[nodiscard]] std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower,
+                                                         double upper_common_px);
+
+}  // namespace bladecurve

@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+
+#include "vision/pivot/pivot.h"
+#include "vision/scale/plane_map.h"
+#include "vision/scissors/located_blade.h"
+
+namespace bladecurve {
+
+// Opening angle between the rays from the pivot to the distal ends, its uncertainty, and the
+// direction halfway, in the plane of the edges.
+struct Opening {
+  double theta_rad = 0, sigma_rad = 0;
+  Eigen::Vector2d x_in_plane;
+};
+
+[[nodiscard]] Opening MeasureOpening(const PlaneMap& map,
+                                     const Pivot& pivot,
+                                     const LocatedBlade& upper,
+                                     const LocatedBlade& lower);
+
+}  // namespace bladecurve
