@@ -66,9 +66,7 @@ DrawnEdge DrawEdge(const Json& record, const BladeCurve& curve, const Photo& pho
   if (displayed.size() < 2) throw std::invalid_argument("upper_edge_px: fewer than two points");
   DrawnEdge edge;
   for (const Eigen::Vector2d& p : displayed) edge.path_px.push_back(photo.StoredFromDisplayed(p));
-  // The upper blade lies on the +y side of its edge: left of the walk from pivot to tip as
-  // displayed.
-  edge.blade_on_left = !photo.mirrored();
+  edge.blade_on_left = true;  // the upper blade lies on the +y side of the walk from pivot to tip
   return edge;
 }
 

@@ -147,7 +147,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   std::string sha256;
   ParallelAside([&] { finder.emplace(photo, scale.markers, hints, &log); },
                 [&] { sha256 = photo.Sha256(); });  // where finding leaves a thread idle
-  const bool upper_on_left = options.hints.upper_is_left.value_or(true) != photo.mirrored();
+  const bool upper_on_left = options.hints.upper_is_left.value_or(true);
   const Scissors scissors = LocateScissors({photo, scale, hints, upper_on_left}, &*finder, &log);
   const Pivot& pivot = scissors.pivot;
   const Blades& blades = scissors.blades;

@@ -14,6 +14,7 @@
 #include "model/blade_file.h"
 #include "tests/samples/picture_files.h"
 #include "tests/samples/program_run.h"
+#include "vision/photo/photo.h"
 #include "vision/render/render.h"
 
 namespace bladecurve {
@@ -207,6 +208,28 @@ TEST(Fit, EveryOrientationGivesTheDisplayedPicture) {
     const Json turned = MustFitFile(
         folder, std::to_string(orientation) + ".jpg", WithOrientation(jpeg, orientation));
     ExpectSameMeasurement(upright, turned);
+  }
+}
+
+// A marker in a mirror is no marker: such files are mirrored back before anything is read in them.
+TEST(Fit, MarkersOfMirroredFilesAreRead) {
+  const fs::path folder = TestFolder();
+  const auto fit = [&](const std::string& file) {
+    return MustFit(folder, {file, "--marker-mm", "25"});
+  };
+  const Json upright = fit((kSamples / "mayo.jpg").string());
+  const Photo photo = Photo::Load(kSamples / "mayo.jpg");
+  const cv::Mat shown = photo.DecodeColour(std::max(photo.grey().cols, photo.grey().rows));
+  for (const int orientation : {2, 4, 5, 7}) {
+    SCOPED_TRACE("EXIF orientation " + std::to_string(orientation));
+    const std::string jpeg = JpegFile(StoredFor(shown, orientation));
+    WriteText(folder / "mirrored.jpg", WithOrientation(jpeg, orientation));
+    const Json mirrored = fit("mirrored.jpg");
+    ExpectSameMeasurement(upright, mirrored);
+    EXPECT_NEAR(mirrored["photos"][0]["mm_per_px"].get<double>() /
+                    upright["photos"][0]["mm_per_px"].get<double>(),
+                1,
+                1e-3);
   }
 }
 

@@ -114,6 +114,22 @@ PhotoMetadata Describe(std::string_view bytes, const DecodedPhoto& decoded) {
   return metadata;
 }
 
+// EXIF orientations that no turning explains become those of the same picture, its columns flipped.
+int WithColumnsFlipped(int orientation) {
+  switch (orientation) {
+    case 2:
+      return 1;
+    case 4:
+      return 3;
+    case 5:
+      return 8;
+    case 7:
+      return 6;
+    default:
+      return orientation;
+  }
+}
+
 [[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& cause) {
   throw Refused(Reason::kUnreadable,
                 "photo: " + path.string() + " cannot be read: " + cause +
@@ -129,8 +145,11 @@ Photo Photo::Load(const std::filesystem::path& path) {
     DecodeOptions options;
     options.num_threads = UsableThreads();
     const DecodedPhoto decoded = Decode(photo.bytes_, options);
-    photo.grey_ = decoded.pixels;
     photo.metadata_ = Describe(photo.bytes_, decoded);
+    const int orientation = photo.metadata_.orientation;
+    photo.metadata_.orientation = WithColumnsFlipped(orientation);
+    photo.mirrored_ = photo.metadata_.orientation != orientation;
+    photo.grey_ = photo.Unmirrored(decoded.pixels);
     return photo;
   } catch (const std::bad_alloc&) {
     Refuse(path, "there is not enough memory for it");
@@ -139,11 +158,18 @@ Photo Photo::Load(const std::filesystem::path& path) {
   }
 }
 
+cv::Mat Photo::Unmirrored(const cv::Mat& pixels) const {
+  if (!mirrored_) return pixels;
+  cv::Mat flipped;
+  cv::flip(pixels, flipped, 1);
+  return flipped;
+}
+
 std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
 cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");
-  const cv::Mat colour = Decode(bytes_, {true, max_side}).pixels;
+  const cv::Mat colour = Unmirrored(Decode(bytes_, {true, max_side}).pixels);
   const double factor = static_cast<double>(max_side) / std::max(colour.cols, colour.rows);
   if (factor * slack >= 1) return colour;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(colour.cols * factor))),
@@ -156,8 +182,8 @@ cv::Mat Photo::DecodeColour(int max_side, double slack) const {
 cv::Mat Photo::DecodeTopColour(double share, int max_side) const {
   if (!(share > 0 && share <= 1))
     throw std::invalid_argument("Photo::DecodeTopColour: share must be in (0, 1]");
-  const cv::Mat colour =
-      Decode(bytes_, {.colour = true, .long_side = max_side, .top_share = share}).pixels;
+  const cv::Mat colour = Unmirrored(
+      Decode(bytes_, {.colour = true, .long_side = max_side, .top_share = share}).pixels);
   const double rows = share * colour.cols * grey_.rows / grey_.cols;
   return colour.rowRange(0, std::clamp(static_cast<int>(std::ceil(rows)), 1, colour.rows));
 }
@@ -176,18 +202,10 @@ struct Turn {
 
 Turn TurnOf(int orientation) {
   switch (orientation) {
-    case 2:
-      return {true, false, false};
     case 3:
       return {true, true, false};
-    case 4:
-      return {false, true, false};
-    case 5:
-      return {false, false, true};
     case 6:
       return {false, true, true};
-    case 7:
-      return {true, true, true};
     case 8:
       return {true, false, true};
     default:
@@ -201,11 +219,6 @@ Eigen::Vector2d Flipped(const Eigen::Vector2d& stored_px, const Turn& turn, cons
 }
 
 }  // namespace
-
-bool Photo::mirrored() const {
-  const Turn turn = TurnOf(metadata_.orientation);
-  return turn.flip_x != (turn.flip_y != turn.exchange);
-}
 
 Eigen::Vector2d Photo::DisplayedFromStored(const Eigen::Vector2d& stored_px) const {
   const Turn turn = TurnOf(metadata_.orientation);

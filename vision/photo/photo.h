@@ -13,13 +13,14 @@ namespace bladecurve {
 // What a file says beside its pixels.
 struct PhotoMetadata {
   std::string format;                     // "jpeg", "png", "tiff", "heic"
-  int orientation = 1;                    // EXIF 1 to 8
+  int orientation = 1;                    // EXIF, of Photo's pixels: 1, 3, 6 or 8
   std::optional<double> dpi;              // only if the file states a physical unit
   std::optional<double> focal_length_px;  // from EXIF: 35 mm equivalent, or focal plane resolution
 };
 
 // A decoded photograph. Pixels stay as stored (turning 12 MP costs more than finding the scissors);
-// coordinates that leave vision/ are turned by DisplayedFromStored instead.
+// coordinates that leave vision/ are turned by DisplayedFromStored instead. Only what a file stores
+// as a mirror image is mirrored back: markers are read, and a left blade is one, from one side.
 class Photo {
  public:
   // Throws Refused{kUnreadable} naming file, cause and remedy.
@@ -41,12 +42,14 @@ class Photo {
   [[nodiscard]] int displayed_height() const;
   [[nodiscard]] Eigen::Vector2d DisplayedFromStored(const Eigen::Vector2d& stored_px) const;
   [[nodiscard]] Eigen::Vector2d StoredFromDisplayed(const Eigen::Vector2d& displayed_px) const;
-  [[nodiscard]] bool mirrored() const;  // stored and displayed differ by a reflection (2, 4, 5, 7)
 
  private:
+  [[nodiscard]] cv::Mat Unmirrored(const cv::Mat& pixels) const;
+
   cv::Mat grey_;
   PhotoMetadata metadata_;
-  std::string bytes_;  // the file
+  bool mirrored_ = false;  // the file's pixels are
+  std::string bytes_;      // the file
 };
 
 }  // namespace bladecurve
