@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <random>
 
 #include "process_folder.h"
@@ -84,6 +85,56 @@ TEST(SolveSheet, StatesTheErrorItMakes) {
   }
   // The rms of 100 draws is known to 7 %; a length and an area scale differ a little.
   EXPECT_NEAR(std::sqrt(chi2), 1, 0.3);
+}
+
+// Phones' wide lenses to short telephoto ones, any tilt from 0 to 35 degrees, 1 to 13 markers.
+SheetPose AnyPose(std::mt19937* random) {
+  std::uniform_real_distribution<double> share(0, 1);
+  const double focal_px = 4000 * std::exp(std::log(0.65) + share(*random) * std::log(2.2 / 0.65));
+  const double tilt = 0.6 * share(*random), azimuth = 2 * std::numbers::pi * share(*random);
+  SheetPose pose;
+  pose.camera = CentredCamera(focal_px, 4000, 3000);
+  pose.camera.distortion = {0.01 * Normal(random), 0, 0, 0};
+  pose.camera_from_sheet =
+      Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0))
+          .toRotationMatrix() *
+      Eigen::AngleAxisd(0.2 * Normal(random), Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+      Eigen::Vector3d(1, -1, -1).asDiagonal();
+  const Eigen::Vector3d middle(148, 105, 0);
+  const double distance_mm = focal_px / (4000.0 / 360);  // the sheet fills the picture
+  pose.sheet_in_camera_mm = Eigen::Vector3d(0, 0, distance_mm) - pose.camera_from_sheet * middle;
+  return pose;
+}
+
+TEST(SolveSheet, NeedsNoFocalLength) {
+  constexpr int kDraws = 300;
+  constexpr double kNoisePx = 0.02, kMostSigmas = 4.5;  // of 300 draws one exceeds 3
+  std::mt19937 random(7);
+  double chi2 = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    const SheetPose pose = AnyPose(&random);
+    SheetProblem problem = CardSeenBy(pose, kNoisePx, &random);
+    problem.knowledge = {CentredCamera(1.2 * 4000, 4000, 3000), 0.6, 0.02};
+    const size_t kept[] = {problem.squares.size(), 8, 4, 2, 1};
+    std::shuffle(problem.squares.begin(), problem.squares.end(), random);
+    problem.squares.resize(kept[i % 5]);
+    const SheetSolution solution = SolveSheet(problem);
+    const Eigen::Vector2d place = problem.squares.front().corners_px[0];
+    const double log_error =
+        0.5 *
+        std::log(
+            PlaneMap::FromGeometry(solution.pose.PlaneAtHeight(0), 0, "")
+                .JacobianAt(place)
+                .determinant() /
+            PlaneMap::FromGeometry(pose.PlaneAtHeight(0), 0, "").JacobianAt(place).determinant());
+    const double sigmas = log_error / RelativeSigma(solution, {{place}, 0, 0});
+    EXPECT_LT(std::abs(sigmas), kMostSigmas)
+        << "draw " << i << ", " << problem.squares.size() << " markers, focal length "
+        << pose.camera.k(0, 0) << " px, error " << log_error;
+    EXPECT_LT(solution.rms_px, 2 * kNoisePx) << "draw " << i;
+    chi2 += sigmas * sigmas;
+  }
+  EXPECT_NEAR(chi2 / kDraws, 1, 0.4);
 }
 
 TEST(SolveSheet, SolvesLooseMarkersAtUnknownPlacesTogether) {

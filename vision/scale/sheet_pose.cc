@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/calib3d.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "vision/refused.h"
@@ -14,14 +16,10 @@
 namespace bladecurve {
 namespace {
 
-using sheet::Base;
 using sheet::Corners;
-using sheet::kK1;
 using sheet::kLogFocal;
-using sheet::kPlace;
 using sheet::kSpread;
 using sheet::kSquares;
-using sheet::kTurn;
 
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
@@ -30,40 +28,43 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 struct Minimum {
-  Base base;
   VectorXd x;
   double cost = 0;  // sum of squares
 };
 
-// Levenberg-Marquardt from a start; the turn is folded into the base after every step.
-Minimum Minimise(Minimum at, const std::vector<int>& free) {
-  constexpr int kMaxSteps = 60;
+// How many steps a search may take. Ten do, from a focal length twice too long as well; a single
+// marker that is seen from straight above, and so tells hardly anything of it, takes some hundred.
+constexpr int kPatient = 1000, kQuick = 60;
+
+// Levenberg-Marquardt from a start; nothing where it does not come to an end.
+std::optional<Minimum> Minimise(const SheetProblem& problem,
+                                VectorXd start,
+                                const std::vector<int>& free,
+                                int max_steps) {
+  constexpr double kStuck = 1e9;  // damping: no direction leads down any more
+  Minimum at{std::move(start), 0};
+  at.cost = sheet::Residuals(problem, at.x).squaredNorm();
   double damping = 1e-3;
-  at.cost = sheet::Residuals(at.base, at.x).squaredNorm();
-  for (int step = 0; step < kMaxSteps && damping < 1e9; ++step) {
-    const MatrixXd jacobian = sheet::Jacobian(at.base, at.x, free);
+  for (int step = 0; step < max_steps; ++step) {
+    const MatrixXd jacobian = sheet::Jacobian(problem, at.x, free);
     MatrixXd normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1 + damping;
     const VectorXd change =
-        normal.ldlt().solve(-jacobian.transpose() * sheet::Residuals(at.base, at.x));
+        normal.ldlt().solve(-jacobian.transpose() * sheet::Residuals(problem, at.x));
     Minimum next = at;
     for (size_t c = 0; c < free.size(); ++c) next.x[free[c]] += change[static_cast<long>(c)];
-    next.base.rotation = sheet::Rotation(next.x.segment<3>(kTurn)) * at.base.rotation;
-    next.x.segment<3>(kTurn).setZero();
-    next.cost = sheet::Residuals(next.base, next.x).squaredNorm();
+    next.cost = sheet::Residuals(problem, next.x).squaredNorm();
     if (!(next.cost <= at.cost)) {
       damping *= 10;
+      if (damping > kStuck) return at;
       continue;
     }
     const bool done = at.cost - next.cost < 1e-12 * (1 + at.cost);
-    // Members one by one: the base refers to its problem.
-    at.base.rotation = next.base.rotation;
-    at.x = next.x;
-    at.cost = next.cost;
+    at = next;
+    if (done) return at;
     damping = std::max(0.1 * damping, 1e-12);
-    if (done) break;
   }
-  return at;
+  return std::nullopt;
 }
 
 Matrix3d HomographyFrom(const std::vector<Vector2d>& sheet_mm,
@@ -107,9 +108,12 @@ Matrix3d SheetHomography(const SheetProblem& problem) {
   return HomographyFrom(mm, px);
 }
 
-// Pose from a homography (Zhang 2000): K^-1 H = lambda [r1 r2 t], made orthonormal.
-Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
-  Matrix3d columns = problem.knowledge.camera.k.inverse() * homography;
+// Pose from a homography (Zhang 2000): K^-1 H = lambda [r1 r2 t], made orthonormal; for a focal
+// length that is longer by a factor of exp(log_focal).
+VectorXd StartFrom(const SheetProblem& problem, const Matrix3d& homography, double log_focal) {
+  Matrix3d k = problem.knowledge.camera.k;
+  k.diagonal().head<2>() *= std::exp(log_focal);
+  Matrix3d columns = k.inverse() * homography;
   columns *= 2 / (columns.col(0).norm() + columns.col(1).norm());
   if (columns(2, 2) < 0) columns = -columns;  // the sheet lies before the camera
   Matrix3d rotation;
@@ -117,9 +121,9 @@ Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
   const Eigen::JacobiSVD<Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const int others =
       sheet::LiesAnywhere(problem) ? static_cast<int>(problem.squares.size()) - 1 : 0;
-  Minimum start{{problem, svd.matrixU() * svd.matrixV().transpose()},
-                VectorXd::Zero(kSquares + 3 * others)};
-  start.x.segment<3>(kPlace) = columns.col(2);
+  VectorXd start = VectorXd::Zero(kSquares + 3 * others);
+  start[kLogFocal] = log_focal;
+  sheet::SetPose(svd.matrixU() * svd.matrixV().transpose(), columns.col(2), &start);
   const Matrix3d sheet_from_image = homography.inverse();
   for (int i = 0; i < others; ++i) {
     Corners mm = problem.squares[static_cast<size_t>(i) + 1].corners_px;
@@ -127,25 +131,56 @@ Minimum StartFrom(const SheetProblem& problem, const Matrix3d& homography) {
       p = (sheet_from_image * Undistorted(problem.knowledge.camera, p).homogeneous()).hnormalized();
     }
     const Vector2d across = mm[1] - mm[0];
-    start.x.segment<3>(kSquares + 3 * i) << sheet::Centre(mm), std::atan2(across.y(), across.x());
+    start.segment<3>(kSquares + 3 * i) << sheet::Centre(mm), std::atan2(across.y(), across.x());
   }
   return start;
 }
 
+// The best of some focal lengths, as far as they are not known.
+VectorXd BestStart(const SheetProblem& problem) {
+  const Matrix3d homography = SheetHomography(problem);
+  VectorXd best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double sigmas : {0.0, -1.0, -0.5, 0.5, 1.0}) {
+    const VectorXd start =
+        StartFrom(problem, homography, sigmas * problem.knowledge.log_focal_sigma);
+    const double cost = sheet::Residuals(problem, start).squaredNorm();
+    if (best.size() > 0 && !(cost < least)) continue;
+    best = start;
+    least = cost;
+  }
+  return best;
+}
+
+// In the middle of all squares that lie at known places.
+Vector2d Middle(const SheetProblem& problem) {
+  if (sheet::LiesAnywhere(problem)) return Vector2d::Zero();
+  Vector2d sum = Vector2d::Zero();
+  for (const SquareObservation& square : problem.squares) sum += sheet::Centre(*square.corners_mm);
+  return sum / static_cast<double>(problem.squares.size());
+}
+
 // A plane seen with little perspective looks the same tilted the other way: the normal mirrored at
-// the line of sight.
-Minimum TiltedTheOtherWay(const Minimum& minimum) {
-  const Vector3d sight = minimum.x.segment<3>(kPlace).normalized();
-  const Vector3d normal = minimum.base.rotation.col(2);
+// the line of sight to the middle, which stays where it is.
+VectorXd TiltedTheOtherWay(const SheetProblem& problem, const VectorXd& x) {
+  const SheetPose pose = sheet::PoseOf(problem, x);
+  const Vector3d middle(Middle(problem).x(), Middle(problem).y(), 0);
+  const Vector3d seen = pose.camera_from_sheet * middle + pose.sheet_in_camera_mm;
+  const Vector3d sight = seen.normalized();
+  const Vector3d normal = pose.camera_from_sheet.col(2);
   const Vector3d mirrored = 2 * normal.dot(sight) * sight - normal;
-  Minimum other = minimum;
-  other.base.rotation =
-      Eigen::Quaterniond::FromTwoVectors(normal, mirrored) * minimum.base.rotation;
+  const Matrix3d rotation =
+      Eigen::Quaterniond::FromTwoVectors(normal, mirrored) * pose.camera_from_sheet;
+  VectorXd other = x;
+  sheet::SetPose(rotation, seen - rotation * middle, &other);
   return other;
 }
 
-void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSolution* solution) {
-  const MatrixXd jacobian = sheet::Jacobian(at.base, at.x, free);
+void AddSigmaPoints(const SheetProblem& problem,
+                    const VectorXd& x,
+                    const std::vector<int>& free,
+                    SheetSolution* solution) {
+  const MatrixXd jacobian = sheet::Jacobian(problem, x, free);
   const MatrixXd information = jacobian.transpose() * jacobian;
   const long count = static_cast<long>(free.size());
   const MatrixXd covariance = information.ldlt().solve(MatrixXd::Identity(count, count));
@@ -157,21 +192,23 @@ void AddSigmaPoints(const Minimum& at, const std::vector<int>& free, SheetSoluti
   for (long axis = 0; axis < kept; ++axis) {
     const double length =
         kPoseShift * surplus_scale * std::sqrt(std::max(0.0, axes.eigenvalues()[axis]));
-    VectorXd plus = at.x, minus = at.x;
+    VectorXd plus = x, minus = x;
     for (long c = 0; c < kept; ++c) {
       plus[free[static_cast<size_t>(c)]] += length * axes.eigenvectors()(c, axis);
       minus[free[static_cast<size_t>(c)]] -= length * axes.eigenvectors()(c, axis);
     }
-    solution->shifted.emplace_back(sheet::PoseOf(at.base, plus), sheet::PoseOf(at.base, minus));
+    solution->shifted.emplace_back(sheet::PoseOf(problem, plus), sheet::PoseOf(problem, minus));
   }
   if (free.front() == kLogFocal) solution->log_focal_sigma = std::sqrt(covariance(0, 0));
 }
 
-SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
-  const std::vector<SquareObservation>& squares = best.base.problem.squares;
+SheetSolution Describe(const SheetProblem& problem,
+                       const Minimum& best,
+                       const std::vector<int>& free) {
+  const std::vector<SquareObservation>& squares = problem.squares;
   SheetSolution solution;
-  solution.pose = sheet::PoseOf(best.base, best.x);
-  const VectorXd residuals = sheet::Residuals(best.base, best.x);
+  solution.pose = sheet::PoseOf(problem, best.x);
+  const VectorXd residuals = sheet::Residuals(problem, best.x);
   double square_px = 0;
   for (size_t i = 0; i < squares.size(); ++i) {
     const double sum = residuals.segment<8>(static_cast<long>(8 * i)).squaredNorm() *
@@ -180,7 +217,7 @@ SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
     square_px += sum;
   }
   const long corners = static_cast<long>(8 * squares.size());
-  const VectorXd priors = sheet::PriorSigmas(best.base.problem, static_cast<int>(best.x.size()));
+  const VectorXd priors = sheet::PriorSigmas(problem, static_cast<int>(best.x.size()));
   const long with_prior =
       std::count_if(free.begin(), free.end(), [&](int i) { return priors[i] > 0; });
   solution.surplus = static_cast<int>(corners - static_cast<long>(free.size()));
@@ -188,7 +225,7 @@ SheetSolution Describe(const Minimum& best, const std::vector<int>& free) {
   solution.rms_px = std::sqrt(square_px / static_cast<double>(corners));
   solution.reduced_chi2 = degrees > 0 ? best.cost / static_cast<double>(degrees) : std::nan("");
   solution.spread_mm = best.x[kSpread];
-  AddSigmaPoints(best, free, &solution);
+  AddSigmaPoints(problem, best.x, free, &solution);
   return solution;
 }
 
@@ -204,6 +241,13 @@ void CheckProblem(const SheetProblem& problem) {
   }
 }
 
+[[noreturn]] void RefusePose() {
+  throw Refused(
+      Reason::kNoScale,
+      "scale: the markers' corners fit no camera above the sheet; is the picture mirrored "
+      "or cut?");
+}
+
 }  // namespace
 
 SheetSolution SolveSheet(const SheetProblem& given) {
@@ -212,22 +256,21 @@ SheetSolution SolveSheet(const SheetProblem& given) {
   // The square that carries the sheet frame should be the one seen best.
   const size_t frame = sheet::LiesAnywhere(problem) ? LargestSquare(problem.squares) : 0;
   std::swap(problem.squares.front(), problem.squares[frame]);
-  const Minimum start = StartFrom(problem, SheetHomography(problem));
-  const std::vector<int> free = sheet::FreeUnknowns(problem, static_cast<int>(start.x.size()));
-  const Minimum one = Minimise(start, free);
-  const Minimum other = Minimise(TiltedTheOtherWay(one), free);
-  const Minimum& best = other.cost < one.cost ? other : one;
-  SheetSolution solution = Describe(best, free);
+  const VectorXd start = BestStart(problem);
+  const std::vector<int> free = sheet::FreeUnknowns(problem, static_cast<int>(start.size()));
+  const std::optional<Minimum> one = Minimise(problem, start, free, kPatient);
+  if (!one) RefusePose();
+  const std::optional<Minimum> other =
+      Minimise(problem, TiltedTheOtherWay(problem, one->x), free, kQuick);
+  const bool turned = other && other->cost < one->cost;
+  const Minimum& best = turned ? *other : *one;
+  SheetSolution solution = Describe(problem, best, free);
   std::swap(solution.square_rms_px.front(), solution.square_rms_px[frame]);
-  if (!best.x.allFinite() || !(solution.pose.CameraHeightMm() > 0)) {
-    throw Refused(Reason::kNoScale,
-                  "scale: the markers' corners fit no camera above the sheet; is the picture "
-                  "mirrored or cut?");
-  }
+  if (!best.x.allFinite() || !(solution.pose.CameraHeightMm() > 0)) RefusePose();
   // The two tilts explain the corners about equally well: lengths are as uncertain as they differ.
-  const Minimum& rival = &best == &one ? other : one;
+  const Minimum& rival = turned || !other ? *one : *other;
   const double odds = std::exp(0.5 * (best.cost - rival.cost));
-  solution.rival = sheet::PoseOf(rival.base, rival.x);
+  solution.rival = sheet::PoseOf(problem, rival.x);
   solution.rival_share = odds / (1 + odds);
   return solution;
 }
