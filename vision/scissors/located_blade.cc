@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "vision/edge/edge_curve.h"
 #include "vision/image/along_across.h"
+#include "vision/image/cross.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
 
@@ -44,6 +46,41 @@ double SmearedByTip(const std::vector<Vector2d>& points) {
 // What is uncertain about where the edge lies, beside an offset that both edges share. px^2.
 double AloneVariance(const LocatedEdge& edge, double shared_px) {
   return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - shared_px * shared_px);
+}
+
+// Whether the piece from a0 to a1 crosses that from b0 to b1.
+bool CrossEachOther(const Vector2d& a0,
+                    const Vector2d& a1,
+                    const Vector2d& b0,
+                    const Vector2d& b1) {
+  const auto apart =
+      [](const Vector2d& from, const Vector2d& to, const Vector2d& p, const Vector2d& q) {
+        return Cross(to - from, p - from) * Cross(to - from, q - from) <= 0;
+      };
+  return apart(a0, a1, b0, b1) && apart(b0, b1, a0, a1);
+}
+
+// The last place, in their first halves, at which two edges cross; nothing where they do not.
+std::optional<Vector2d> CrossingOf(const std::vector<LocatedEdgePoint>& a,
+                                   const std::vector<LocatedEdgePoint>& b) {
+  for (std::size_t i = a.size() / 2; i > 0; --i) {
+    for (std::size_t j = b.size() / 2; j > 0; --j) {
+      if (CrossEachOther(a[i - 1].trend_px, a[i].trend_px, b[j - 1].trend_px, b[j].trend_px))
+        return 0.5 * (a[i].trend_px + b[j].trend_px);
+    }
+  }
+  return std::nullopt;
+}
+
+// Of the points used those further along than `from_px`, and clear of it.
+std::vector<LocatedEdgePoint> Beyond(const Vector2d& from_px, const LocatedBlade& blade) {
+  const Vector2d along = (blade.used.back().trend_px - from_px).normalized();
+  const double clear = ClearOfCrossing(blade.edge);
+  std::vector<LocatedEdgePoint> kept;
+  for (const LocatedEdgePoint& p : blade.used) {
+    if ((p.point_px - from_px).dot(along) > clear) kept.push_back(p);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -84,6 +121,17 @@ void KeepFree(const Scene& scene, LocatedBlade* blade) {
                   "edges: only " + std::to_string(blade->used.size()) +
                       " px of free cutting edge; open the scissors wider or go nearer");
   }
+}
+
+void KeepBeyondCrossing(Blades* blades) {
+  const std::optional<Vector2d> crossing = CrossingOf(blades->upper.used, blades->lower.used);
+  if (!crossing) return;
+  std::vector<LocatedEdgePoint> upper = Beyond(*crossing, blades->upper);
+  std::vector<LocatedEdgePoint> lower = Beyond(*crossing, blades->lower);
+  if (2 * upper.size() < blades->upper.used.size() || 2 * lower.size() < blades->lower.used.size())
+    return;
+  blades->upper.used = std::move(upper);
+  blades->lower.used = std::move(lower);
 }
 
 void PlaceEndOnCourse(LocatedBlade* blade) {

@@ -41,6 +41,11 @@ void TrimToFree(const Photo& photo,
 // The same for an end that is known. Throws Refused{kEdgeTooShort}.
 void KeepFree(const Scene& scene, LocatedBlade* blade);
 
+// Drops what lies before the place where the two edges cross, as they are located: there the blades
+// cover each other, which the silhouette does not tell where a shadow fills their crotch. Not where
+// less than half of an edge would be left.
+void KeepBeyondCrossing(Blades* blades);
+
 // Moves the distal end across the edge, onto the course of its points: the arc of the tip tells how
 // far the edge goes, not where it lies. Sets the end's across_sigma_px.
 void PlaceEndOnCourse(LocatedBlade* blade);

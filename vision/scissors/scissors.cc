@@ -101,6 +101,7 @@ void SettleEnds(const MirrorView& view, const Pivot& pivot, Blades* blades) {
     KeepFree(view.scene, blade);
     PlaceEndOnCourse(blade);
   }
+  KeepBeyondCrossing(blades);
   DoubtUnlikeEnds(pivot, blades);
 }
 
