@@ -110,8 +110,10 @@ TEST(RelocateUnlikeEdges, TakesNoEdgeToWhereItWouldHardlyPassByThePivot) {
   constexpr double kAsidePx = 16, kHardly = 0.04;
   Measured measured{SceneWithMarkers()};
   const auto compare = [&] {
-    CompareEdges(
-        measured.scene, PairOf(measured.blades.upper, measured.blades.lower), &measured.pivot);
+    CompareEdges(measured.scale,
+                 measured.scene,
+                 PairOf(measured.blades.upper, measured.blades.lower),
+                 &measured.pivot);
   };
   for (compare(); measured.pivot.overlap > kHardly; compare())
     measured.pivot.point_px += measured.truth.axis_px;
@@ -357,7 +359,7 @@ TEST(RelocateUnlikeEdges, LeavesBladesBentToOneSide) {
     const auto edges = [&] { return PairOf(measured.blades.upper, measured.blades.lower); };
     const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
     const std::vector<Vector2d> lower = PointsOf(measured.blades.lower);
-    CompareEdges(measured.scene, edges(), &measured.pivot);
+    CompareEdges(measured.scale, measured.scene, edges(), &measured.pivot);
     EXPECT_TRUE(measured.pivot.bent) << curve_mm;
     EXPECT_EQ(measured.pivot.asymmetry, 0) << curve_mm;
     const double sigma_px = measured.blades.upper.edge.common_sigma_px;

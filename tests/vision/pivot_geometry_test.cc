@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -12,6 +12,7 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 constexpr double kLength = 300;  // px, pivot to tips
 constexpr double kDegree = std::numbers::pi / 180;
@@ -75,6 +76,42 @@ EdgePair Bent(EdgePair edges, double bow, double from) {
     }
   }
   return edges;
+}
+
+// A sheet under a camera that is tilted about a line at 40 degrees to the blades' axis.
+ScaleResult TiltedView(double tilt_rad) {
+  SheetSolution sheet;
+  sheet.pose.camera = CentredCamera(1500, 800, 700);
+  sheet.pose.camera_from_sheet =
+      Eigen::AngleAxisd(tilt_rad, Vector3d(std::cos(40 * kDegree), std::sin(40 * kDegree), 0))
+          .toRotationMatrix() *
+      Vector3d(1, -1, -1).asDiagonal();
+  sheet.pose.sheet_in_camera_mm = {0, 0, 500};
+  ScaleResult scale;
+  scale.map = PlaneMap::FromGeometry(sheet.pose.PlaneAtHeight(0), 0, "marker");
+  scale.sheet = sheet;
+  return scale;
+}
+
+TEST(SeenFromAbove, MirroredEdgesAreAlikeFromEverySide) {
+  constexpr double kClose = 1e-3, kOverlap = 0.1;
+  const EdgePair edges = Edges(60 * kDegree, kOverlap);  // taken for mm, y down
+  for (const double tilt : {0.0, 15 * kDegree, 30 * kDegree}) {
+    const ScaleResult scale = TiltedView(tilt);
+    const auto image = [&](const Vector2d& p) {
+      return scale.map->ImageFromPlane(0.2 * Vector2d(p.x() - 500, 350 - p.y()));
+    };
+    EdgePair seen;
+    for (const Vector2d& p : edges.left_px) seen.left_px.push_back(image(p));
+    for (const Vector2d& p : edges.right_px) seen.right_px.push_back(image(p));
+    const Vector2d pivot_px = image(kPivot);
+    const EdgePair from_above = SeenFromAbove(scale, seen, pivot_px);
+    EXPECT_NEAR(EdgeAsymmetry(from_above, pivot_px), 0, kClose) << tilt;
+    EXPECT_NEAR(EdgeOverlap(from_above, pivot_px), kOverlap, kClose) << tilt;
+    EXPECT_LT(EdgeUnlikeness(from_above, pivot_px), kClose) << tilt;
+    EXPECT_EQ(AreSuspect(EdgeAsymmetry(seen, pivot_px)), tilt > 20 * kDegree);
+  }
+  EXPECT_EQ(SeenFromAbove({}, edges, kPivot).left_px, edges.left_px);  // the view is not known
 }
 
 TEST(AreBentToOneSide, SeesParabolasFromTheHeels) {

@@ -247,7 +247,7 @@ TEST(FindPivot, SaysHowFarTheHeadLiesFromWhereTheBladesPutIt) {
   };
   EXPECT_LT(off_geometry(Vector2d::Zero()), 2);
   EXPECT_GT(off_geometry(40 * measured.truth.axis_px), 3);
-  EXPECT_EQ(PivotByBlades(measured.scene, edges).off_geometry, 0);
+  EXPECT_EQ(PivotByBlades(measured.scale, measured.scene, edges).off_geometry, 0);
 }
 
 TEST(FindPivot, SeesASlotWhereItIsCut) {
@@ -270,7 +270,7 @@ TEST(CompareEdges, TellsAClampsJawsFromEdgesThatPassByThePivot) {
   Measured measured{SceneWithMarkers()};
   const auto compare = [&] {
     const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
-    CompareEdges(measured.scene, edges, &measured.pivot);
+    CompareEdges(measured.scale, measured.scene, edges, &measured.pivot);
     RefuseInconsistent(measured.pivot, measured.blades);
   };
   const LocatedBlade edge = measured.blades.upper;
@@ -283,8 +283,8 @@ TEST(CompareEdges, TellsAClampsJawsFromEdgesThatPassByThePivot) {
 
 TEST(PivotByBlades, TakesNoNoticeOfTheScrewAndSaysHowVagueThatIs) {
   const Measured measured{SceneWithMarkers()};
-  const Pivot pivot =
-      PivotByBlades(measured.scene, PairOf(measured.blades.upper, measured.blades.lower));
+  const Pivot pivot = PivotByBlades(
+      measured.scale, measured.scene, PairOf(measured.blades.upper, measured.blades.lower));
   EXPECT_EQ(pivot.source, "geometry");
   EXPECT_FALSE(pivot.screw.has_value());
   EXPECT_TRUE(AreAlike(pivot.asymmetry)) << pivot.asymmetry;

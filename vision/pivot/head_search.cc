@@ -142,9 +142,13 @@ std::optional<Screw> LookForScrew(const HeadSearch& known) {
   return clearest;
 }
 
-// What the edges say of a head: see EdgeAsymmetry.
+// What the edges say of a place: see EdgeAsymmetry.
+double AsymmetryAbout(const Vector2d& place_px, const HeadSearch& known) {
+  return EdgeAsymmetry(SeenFromAbove(known.scale, known.edges, place_px), place_px);
+}
+
 double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
-  return EdgeAsymmetry(known.edges, FootBelow(screw, known.scale, known.scene).point_px);
+  return AsymmetryAbout(FootBelow(screw, known.scale, known.scene).point_px, known);
 }
 
 // Whether the edges mirror each other about a head.
@@ -160,7 +164,7 @@ bool MirrorNear(const Screw& screw, const HeadSearch& known) {
   const double length_px = 0.5 * ((known.edges.left_px.back() - foot.point_px).norm() +
                                   (known.edges.right_px.back() - foot.point_px).norm());
   const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
-  const double asymmetry = std::abs(EdgeAsymmetry(known.edges, foot.point_px));
+  const double asymmetry = std::abs(AsymmetryAbout(foot.point_px, known));
   return !AreSuspect(std::max(0.0, asymmetry - by_place));
 }
 

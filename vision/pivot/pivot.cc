@@ -31,14 +31,18 @@ Pivot FromGeometry(const Scene& scene, const EdgeMirror& mirror) {
 }
 
 // What the picture says of the edges' overlap: without a screw, where the members cross.
-Estimate OverlapSeen(const Pivot& pivot, const PivotSearch& search, const EdgeMirror& mirror) {
+Estimate OverlapSeen(const ScaleResult& scale,
+                     const Pivot& pivot,
+                     const PivotSearch& search,
+                     const EdgeMirror& mirror) {
   Estimate behind = BehindByWaist(search.scene, mirror);
   if (pivot.source != "geometry") {
     behind = {(mirror.point_px - pivot.point_px).dot(mirror.direction),
               std::sqrt(mirror.direction.dot(pivot.covariance_px2 * mirror.direction))};
   }
   const double length = std::max(1.0, mirror.length_px + behind.value);
-  return {EdgeOverlap(search.edges, mirror.point_px - behind.value * mirror.direction),
+  const Vector2d place_px = mirror.point_px - behind.value * mirror.direction;
+  return {EdgeOverlap(SeenFromAbove(scale, search.edges, place_px), place_px),
           mirror.sine * behind.sigma / length};
 }
 
@@ -51,11 +55,15 @@ double SigmasApart(const Pivot& a, const Pivot& b) {
 
 // The edges about the pivot. Those of bent blades are no mirror images, and nothing is said of
 // them.
-void Compare(const PivotSearch& search, const EdgeMirror& mirror, Pivot* pivot) {
-  pivot->bent = pivot->source != "geometry" && AreBentToOneSide(search.edges, pivot->point_px);
-  pivot->asymmetry = pivot->bent ? 0 : EdgeAsymmetry(search.edges, pivot->point_px);
-  pivot->unlikeness = pivot->bent ? 0 : EdgeUnlikeness(search.edges, pivot->point_px);
-  const Estimate overlap = OverlapSeen(*pivot, search, mirror);
+void Compare(const ScaleResult& scale,
+             const PivotSearch& search,
+             const EdgeMirror& mirror,
+             Pivot* pivot) {
+  const EdgePair edges = SeenFromAbove(scale, search.edges, pivot->point_px);
+  pivot->bent = pivot->source != "geometry" && AreBentToOneSide(edges, pivot->point_px);
+  pivot->asymmetry = pivot->bent ? 0 : EdgeAsymmetry(edges, pivot->point_px);
+  pivot->unlikeness = pivot->bent ? 0 : EdgeUnlikeness(edges, pivot->point_px);
+  const Estimate overlap = OverlapSeen(scale, *pivot, search, mirror);
   pivot->overlap = overlap.value;
   pivot->overlap_sigma = overlap.sigma;
   pivot->off_geometry =
@@ -85,18 +93,21 @@ Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch
     pivot.covariance_px2 = foot.covariance_px2;
     pivot.source = "screw";
   }
-  Compare(search, mirror, &pivot);
+  Compare(scale, search, mirror, &pivot);
   return pivot;
 }
 
-void CompareEdges(const Scene& scene, const EdgePair& edges, Pivot* pivot) {
-  Compare({scene, edges, std::nullopt}, MirrorOf(edges), pivot);
+void CompareEdges(const ScaleResult& scale,
+                  const Scene& scene,
+                  const EdgePair& edges,
+                  Pivot* pivot) {
+  Compare(scale, {scene, edges, std::nullopt}, MirrorOf(edges), pivot);
 }
 
-Pivot PivotByBlades(const Scene& scene, const EdgePair& edges) {
+Pivot PivotByBlades(const ScaleResult& scale, const Scene& scene, const EdgePair& edges) {
   const EdgeMirror mirror = MirrorOf(edges);
   Pivot pivot = FromGeometry(scene, mirror);
-  Compare({scene, edges, std::nullopt}, mirror, &pivot);
+  Compare(scale, {scene, edges, std::nullopt}, mirror, &pivot);
   return pivot;
 }
 

@@ -48,9 +48,14 @@ struct PivotSearch {
                               const PivotSearch& search);
 
 // What the edges say of a pivot, once more, as one of them was located anew.
-void CompareEdges(const Scene& scene, const EdgePair& edges, Pivot* pivot);
+void CompareEdges(const ScaleResult& scale,
+                  const Scene& scene,
+                  const EdgePair& edges,
+                  Pivot* pivot);
 
 // By the two edges and the silhouette alone, as where no head is seen.
-[[nodiscard]] Pivot PivotByBlades(const Scene& scene, const EdgePair& edges);
+[[nodiscard]] Pivot PivotByBlades(const ScaleResult& scale,
+                                  const Scene& scene,
+                                  const EdgePair& edges);
 
 }  // namespace bladecurve

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot/pivot_geometry.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -121,6 +122,19 @@ double BehindForOverlap(const EdgeMirror& mirror, double k) {
 }
 
 }  // namespace
+
+EdgePair SeenFromAbove(const ScaleResult& scale, EdgePair edges, const Vector2d& about_px) {
+  if (!scale.sheet || !scale.map) return edges;
+  const Vector2d about_mm = scale.map->PlaneFromImage(about_px);
+  const double px_per_mm = 1 / std::sqrt(std::abs(scale.map->JacobianAt(about_px).determinant()));
+  for (std::vector<Vector2d>* edge : {&edges.left_px, &edges.right_px}) {
+    for (Vector2d& p : *edge) {
+      const Vector2d offset_mm = scale.map->PlaneFromImage(p) - about_mm;  // y up
+      p = about_px + px_per_mm * Vector2d(offset_mm.x(), -offset_mm.y());
+    }
+  }
+  return edges;
+}
 
 EdgeMirror MirrorOf(const EdgePair& edges) {
   constexpr double kParallel = 0.02;  // sine of the angle between the edges

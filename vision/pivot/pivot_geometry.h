@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "vision/scale/scale.h"
 #include "vision/scene/scene.h"
 
 namespace bladecurve {
@@ -13,6 +14,12 @@ namespace bladecurve {
 struct EdgePair {
   std::vector<Eigen::Vector2d> left_px, right_px;
 };
+
+// The same as seen from straight above, if markers say how the camera stands: only so do the edges
+// of two blades mirror each other. `about_px` stays where it is, lengths there as they are.
+[[nodiscard]] EdgePair SeenFromAbove(const ScaleResult& scale,
+                                     EdgePair edges,
+                                     const Eigen::Vector2d& about_px);
 
 // The line about which the two edges mirror each other: a point, where they cross if they do, and a
 // unit direction towards the tips. Of the edges only the proximal 60 % count, before a curved blade

@@ -28,6 +28,13 @@ struct Relocated {
   double asymmetry = 0;
 };
 
+double AsymmetryOf(const MirrorView& view,
+                   const Pivot& pivot,
+                   const LocatedBlade& a,
+                   const LocatedBlade& b) {
+  return EdgeAsymmetry(SeenFromAbove(view.scale, PairOf(a, b), pivot.point_px), pivot.point_px);
+}
+
 // Whether an edge lies on the side of its blade that faces the gap, no deeper than where a shadow
 // widened what scene finding took for the blade.
 bool FacesGap(const Scene& scene, const LocatedBlade& blade) {
@@ -86,7 +93,7 @@ struct Mirroring {
     found.blade.on_left = !other.on_left;
     found.blade.edge = std::move(edge);
     TrimToFree(view.photo, view.scene, &found.blade);
-    found.asymmetry = EdgeAsymmetry(PairOf(found.blade, other), pivot.point_px);
+    found.asymmetry = AsymmetryOf(view, pivot, found.blade, other);
     return found;
   }
 
@@ -332,7 +339,7 @@ bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades
   const std::optional<LocatedBlade> upper = WithinBand(view, blades->upper);
   const std::optional<LocatedBlade> lower = upper ? WithinBand(view, blades->lower) : std::nullopt;
   if (!lower) return false;
-  const double asymmetry = EdgeAsymmetry(PairOf(*upper, *lower), pivot.point_px);
+  const double asymmetry = AsymmetryOf(view, pivot, *upper, *lower);
   if (std::abs(asymmetry) > kLeft * std::abs(pivot.asymmetry)) return false;
   blades->upper = *upper;
   blades->lower = *lower;
@@ -401,7 +408,7 @@ void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
   const Blades blades_before = *blades;
   const Pivot pivot_before = *pivot;
   Relocate(view, *pivot, blades);
-  CompareEdges(view.scene, PairOf(blades->upper, blades->lower), pivot);
+  CompareEdges(view.scale, view.scene, PairOf(blades->upper, blades->lower), pivot);
   if (!PassByPivot(pivot_before) || PassByPivot(*pivot)) return;
   *blades = blades_before;
   *pivot = pivot_before;

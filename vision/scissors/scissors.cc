@@ -78,7 +78,7 @@ void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* l
 // Where what was taken for the screw is none, the blades alone say where they turn.
 void DropFalseHead(const MirrorView& view, const Blades& blades, Pivot* pivot, StageLog* log) {
   if (!IsFalseHead(*pivot, view.scale, blades)) return;
-  *pivot = PivotByBlades(view.scene, PairOf(blades.upper, blades.lower));
+  *pivot = PivotByBlades(view.scale, view.scene, PairOf(blades.upper, blades.lower));
   RefuseInconsistent(*pivot, blades);
   log->Ran("pivot-again", "geometry: about the faint head the edges are no mirror images");
 }
