@@ -169,8 +169,7 @@ Survey SurveySmoothed(const cv::Mat& grey,
   std::vector<cv::Point2f> points;
   for (const Eigen::Vector2d& p : guess.points)
     points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-  // The line along which the survey straightens the picture may lie at the end of the search.
-  const int reach = static_cast<int>(std::ceil(2 * search_px + kBeyondSearchPx + 4 * sigma_px));
+  const int reach = static_cast<int>(std::ceil(SurveyReachPx(search_px) + 4 * sigma_px));
   cv::Rect box = cv::boundingRect(points);
   box = cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
         cv::Rect(0, 0, grey.cols, grey.rows);
@@ -224,9 +223,12 @@ double BladeResponse(const Survey& survey, double search_px) {
   constexpr double kShare = 0.25, kSigmaPerQuantile = 3.138;  // keeps clear of a fall next to it
   std::vector<double> heights;
   for (int station = 0; station < survey.map.stations; ++station) {
-    for (int row = kStepMargin; survey.FromGuess(station, row) < -search_px; ++row)
-      heights.push_back(std::abs(survey.map.height[survey.map.At(station, row)]));
+    for (int row = kStepMargin; survey.FromGuess(station, row) < -search_px; ++row) {
+      const size_t at = survey.map.At(station, row);
+      if (!survey.map.unseen[at]) heights.push_back(std::abs(survey.map.height[at]));
+    }
   }
+  if (heights.empty()) return kLeastResponse;
   return std::max(kSigmaPerQuantile * SampleQuantile(std::move(heights), kShare), kLeastResponse);
 }
 

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/edge/edge_path.h"
+#include "vision/edge/edge_survey.h"
 #include "vision/image/pixel_light.h"
 
 namespace bladecurve {
@@ -109,13 +110,12 @@ cv::Mat Mixed(const cv::Mat& bgr,
 
 // The rectangle about the guess that LocateEdge may look at.
 cv::Rect SurroundingsOf(const EdgeGuess& guess, const cv::Size& size) {
-  constexpr double kBeyond = 20;  // px; what LocateEdge sees beyond its search range
   Vector2d low = guess.path_px.front(), high = low;
   for (const Vector2d& p : guess.path_px) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  const double margin = guess.search_px + kBeyond;
+  const double margin = SurveyReachPx(guess.search_px);
   const cv::Point corner(static_cast<int>(low.x() - margin), static_cast<int>(low.y() - margin));
   const cv::Point end(static_cast<int>(high.x() + margin) + 1,
                       static_cast<int>(high.y() + margin) + 1);
@@ -186,10 +186,16 @@ ColourView ViewWhereSidesDiffer(const cv::Mat& bgr,
   const Vector3d weights = sides.Scatter().ldlt().solve(sides.ground.mean - sides.blade.mean);
   const cv::Rect around = SurroundingsOf(guess, bgr.size());
   ColourView view;
-  view.grey = Mixed(bgr(around), tone, sides, weights);
   view.tone = LinearTone(tone);
   view.corner_px = {around.x, around.y};
-  view.separation = sides.SeparationAlong(weights);
+  const double separation = sides.SeparationAlong(weights);
+  if (separation > 0) {
+    view.grey = Mixed(bgr(around), tone, sides, weights);
+    view.separation = separation;
+  } else {  // plain white on both sides, say, where it is 0 over 0
+    view.grey = cv::Mat::zeros(around.size(), CV_8UC1);
+    view.separation = 0;
+  }
   return view;
 }
 

@@ -38,7 +38,8 @@ void FindHeights(const StraightBand& band, StepMap& map) {
       double height = 0;
       for (size_t tap = 0; tap < kRise.size(); ++tap)
         height += kRise[tap] * mean[static_cast<size_t>(row) + tap - 1];
-      map.height[map.At(station, row)] = std::isfinite(height) ? static_cast<float>(height) : 0.0F;
+      map.unseen[map.At(station, row)] = !std::isfinite(height);
+      if (std::isfinite(height)) map.height[map.At(station, row)] = static_cast<float>(height);
     }
   }
 }
@@ -108,13 +109,15 @@ double BackgroundResponse(const StepMap& map, int background_row) {
   std::vector<double> differences;
   for (int station = 0; station + apart < map.stations; ++station) {
     for (int row = first_row; row + kStepMargin < map.rows; ++row) {
-      differences.push_back(
-          std::abs(map.height[map.At(station, row)] - map.height[map.At(station + apart, row)]));
+      const size_t here = map.At(station, row), there = map.At(station + apart, row);
+      if (map.unseen[here] || map.unseen[there]) continue;
+      differences.push_back(std::abs(map.height[here] - map.height[there]));
     }
   }
   // The lower quarter of |x| keeps clear of another blade that runs across the background.
   constexpr double kShare = 0.25, kSigmaPerQuantile = 3.138;
   constexpr double kLeastResponse = 1e-3;  // a quarter of a grey level
+  if (differences.empty()) return kLeastResponse;
   const double quantile = SampleQuantile(std::move(differences), kShare);
   return std::max(kSigmaPerQuantile * quantile / std::sqrt(2.0), kLeastResponse);
 }
@@ -157,6 +160,7 @@ StepMap FindSteps(const StraightBand& band, const StationLayout& layout, int bac
   map.stations = (band.columns + layout.spacing - 1) / layout.spacing;
   map.rows = band.rows;
   map.height.assign(map.At(map.stations, 0), 0.0F);
+  map.unseen.assign(map.height.size(), false);
   map.clear.assign(map.height.size(), 0.0F);
   FindHeights(band, map);
   map.background_response = BackgroundResponse(map, background_row);

@@ -19,6 +19,7 @@ struct StepMap {
   StationLayout layout;
   int stations = 0, rows = 0;
   std::vector<float> height;  // [station * rows + row]: light outside minus light inside, smoothed
+  std::vector<bool> unseen;   // where it is 0 as the picture ends there
   std::vector<float>
       clear;  // 0 to 1: a sharp step that stands out of texture and noise, at its peak
   double background_response = 0;  // typical height that texture and noise reach

@@ -30,6 +30,10 @@ struct Survey {
 // How far a survey sees beyond the search range at most, px: enough to know the background.
 inline constexpr double kBeyondSearchPx = 10;
 
+// How far from the guess a survey looks: the line along which it straightens the picture may lie at
+// the end of the search.
+inline double SurveyReachPx(double search_px) { return 2 * search_px + kBeyondSearchPx; }
+
 inline constexpr float kForbidden = -1;  // score of a place where the edge cannot be
 
 // The score of every place of the survey's map, as FindBestLine takes it.

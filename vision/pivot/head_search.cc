@@ -97,7 +97,7 @@ ScrewSearch SearchHalfLit(const HeadSearch& known) {
       SearchForHead(known.scale,
                     known.scene,
                     known.by_geometry.point_px,
-                    std::clamp(kSigmas * sigma_px, 3.0, 0.5 * known.scene.shank_width_px));
+                    std::max(3.0, std::min(kSigmas * sigma_px, 0.5 * known.scene.shank_width_px)));
   search.half_lit = true;
   search.least_evidence = kClear;
   return search;

@@ -333,7 +333,8 @@ class BladeLocator {
   [[nodiscard]] std::optional<LocatedEdge> InColours(const Look& look, const EdgeGuess& guess) {
     constexpr double kGain = 1.5;  // times better separated; less is no other picture
     const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-    if (view.separation < kGain * GreySeparation(photo_.grey(), tone_, guess)) return std::nullopt;
+    const double in_grey = GreySeparation(photo_.grey(), tone_, guess);
+    if (!(view.separation > 0) || view.separation < kGain * in_grey) return std::nullopt;
     return look(view, guess);
   }
 

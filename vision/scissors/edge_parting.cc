@@ -229,6 +229,7 @@ class Comparison {
                             Between(profile, parting.from, parting.to));
     };
     const auto cut = [&](const Profile& profile, LocatedBlade* blade) {
+      if (ShareBetween(profile, strays.from, strays.to) == 0) return;
       const PointRange range = Between(profile, strays.from, strays.to);
       for (std::size_t i = range.first; i <= range.last; ++i) blade->edge.points[i].inlier = false;
     };
@@ -273,7 +274,9 @@ void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blade
     if (was_cut.upper) TrimToFree(view.photo, view.scene, &blades->upper, comparison.BeyondUpper());
     if (was_cut.lower) TrimToFree(view.photo, view.scene, &blades->lower, comparison.BeyondLower());
   } catch (const Refused&) {
+    const bool edges_part = blades->edges_part;
     *blades = before;  // too little would be left
+    blades->edges_part = edges_part;
   }
 }
 
