@@ -55,6 +55,13 @@ std::vector<double> ParameterValues(const BladeShape& shape) {
   return std::get<RigidSpline>(shape).coefficients_mm;
 }
 
+void RequireMillimetres(const BladeFile& blade) {
+  if (!blade.in_pixels) return;
+  throw std::invalid_argument(blade.name +
+                              ": the curve is in pixels, for it was fitted with --units px; fit it "
+                              "with a scale, such as --marker-mm");
+}
+
 BladeFile ReadBladeFile(const fs::path& path) {
   const std::string bytes = ReadBytes(path);
   try {

@@ -25,7 +25,12 @@ struct BladeFile {
   double fit_rms_mm = std::numeric_limits<double>::quiet_NaN();
   // Of the .blade.json that a plugin was made from, hexadecimal; "" if unknown.
   std::string source_sha256 = {};
+  // Measured without a scale ("units": "px"): every mm of it is a pixel.
+  bool in_pixels = false;
 };
+
+// Throws std::invalid_argument for a blade in pixels, which cuts nothing.
+void RequireMillimetres(const BladeFile& blade);
 
 // "a_mm", "b", "gain", or "c0_mm", "c1_mm", ...: the shape's numbers that a fit estimates.
 [[nodiscard]] std::vector<std::string> ParameterNames(const BladeShape& shape);

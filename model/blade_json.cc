@@ -200,6 +200,14 @@ std::string StatusOfJson(const Json& record) {
                "), so there is no curve; fit another photograph");
 }
 
+// "units": "px" for a curve that was measured without a scale.
+bool PixelsOfJson(const Json& units) {
+  const std::string word = Word(units, "units");
+  if (word != "mm" && word != "px")
+    Complain("units", "is \"" + word + "\"; it must be mm or px");
+  return word == "px";
+}
+
 bool Has(const Json& record, const char* key) {
   return record.contains(key) && !record[key].is_null();
 }
@@ -216,6 +224,7 @@ BladeFile BladeFileOfJson(const Json& record) {
   blade.standard_errors = Has(record, "standard_errors")
                               ? StandardErrorsOfJson(record["standard_errors"], names)
                               : DiagonalRoots(blade.covariance, names.size());
+  if (Has(record, "units")) blade.in_pixels = PixelsOfJson(record["units"]);
   if (Has(record, "fit") && record["fit"].is_object() && Has(record["fit"], "rms_mm")) {
     blade.fit_rms_mm = Number(record["fit"]["rms_mm"], "fit.rms_mm");
   }

@@ -81,6 +81,7 @@ std::string BladeFileText(const BladeFile& blade) {
   add("name", Text(blade.name));
   add("status", Text(blade.status));
   add("warnings", ListText(blade.warnings));
+  if (blade.in_pixels) add("units", Text(std::string("px")));
   add("curve", std::visit([](const auto& s) { return CurveText(s); }, blade.curve.shape()));
   add("domain", DomainText(blade.curve.domain()));
   if (!blade.covariance.empty()) {

@@ -45,6 +45,19 @@ std::vector<PhotoMeasurement> MeasureAll(const std::vector<std::filesystem::path
   return results;
 }
 
+// The same picture twice is no second observation.
+void RequireDistinct(const std::vector<PhotoMeasurement>& photos) {
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (photos[i].sha256 != photos[j].sha256) continue;
+      throw std::invalid_argument(
+          fmt::format("{} and {} are the same picture, which tells nothing twice; give it once",
+                      photos[j].file,
+                      photos[i].file));
+    }
+  }
+}
+
 BladeFit Fit(const std::vector<PhotoMeasurement>& photos, const FitOptions& options) {
   std::vector<EdgePoints> edges;
   for (const PhotoMeasurement& photo : photos) edges.push_back(photo.edges);
@@ -70,6 +83,7 @@ Analysis AnalyzeScissors(const std::vector<std::filesystem::path>& photos,
                     photos.size()));
   }
   std::vector<PhotoMeasurement> measured = MeasureAll(photos, settings);
+  RequireDistinct(measured);
   const auto start = std::chrono::steady_clock::now();
   BladeFit fit = Fit(measured, settings.fit);
   const std::chrono::duration<double, std::milli> elapsed =

@@ -38,7 +38,7 @@ class PhotoRefused : public Refused {
 
 // Measures each photograph and fits one blade to all of them. The result does not depend on
 // num_threads. Throws PhotoRefused; std::invalid_argument where theta_rad and the photographs
-// differ in number.
+// differ in number, or two photographs are the same.
 [[nodiscard]] Analysis AnalyzeScissors(const std::vector<std::filesystem::path>& photos,
                                        const AnalysisSettings& settings);
 

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <numbers>
@@ -28,6 +28,16 @@ std::optional<double> Positive(const std::string& flag, const std::optional<std:
   return value;
 }
 
+std::optional<double> Within(const std::string& flag,
+                             const std::optional<std::string>& text,
+                             const Bounds& bounds) {
+  if (!text) return std::nullopt;
+  const double value = ParseNumber(flag, *text);
+  if (bounds.least > 0) RequirePositive(flag, value);
+  RequireWithin(flag, value, bounds);
+  return value;
+}
+
 std::filesystem::path RequireFile(const std::string& flag, const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) {
     throw std::invalid_argument(
@@ -36,8 +46,9 @@ std::filesystem::path RequireFile(const std::string& flag, const std::string& pa
   return path;
 }
 
-// Two scales could contradict each other, and which one held would be a guess.
-void RequireOneScale(const AnalysisFlags& flags) {
+// The flag that sets the scale; "" if none does. Two could contradict each other, and which one
+// held would be a guess.
+std::string ScaleFlag(const AnalysisFlags& flags) {
   const std::initializer_list<std::pair<const char*, bool>> scales = {
       {"--card", flags.card.has_value()},
       {"--marker-mm", flags.marker_mm.has_value()},
@@ -54,21 +65,63 @@ void RequireOneScale(const AnalysisFlags& flags) {
     }
     first = name;
   }
+  return first;
+}
+
+// What a flag says must not be passed over in silence. Without any scale a card may be in view.
+void RequireOneOf(const char* flag,
+                  const std::string& scale,
+                  std::initializer_list<const char*> scales,
+                  const char* why) {
+  if (scale.empty() || std::find(scales.begin(), scales.end(), scale) != scales.end()) return;
+  throw std::invalid_argument(fmt::format("{}: {}; {} has no use for it; leave it out, or give {}",
+                                          flag,
+                                          why,
+                                          scale,
+                                          fmt::join(scales, " or ")));
+}
+
+void RequireUsed(const AnalysisFlags& flags) {
+  const std::string scale = ScaleFlag(flags);
+  if (flags.print_scale)
+    RequireOneOf("--print-scale", scale, {"--card"}, "says how large a card was printed");
+  if (flags.plane_height_mm) {
+    RequireOneOf("--plane-height-mm",
+                 scale,
+                 {"--card", "--marker-mm"},
+                 "is the height of the blades over a printed sheet");
+  }
+  if (flags.camera) {
+    RequireOneOf("--camera",
+                 scale,
+                 {"--card", "--marker-mm", "--mm-per-px", "--length-mm"},
+                 "says how a lens bends a photograph");
+  }
+}
+
+// A ratio near 1; the bar's length in mm is what people type.
+double PrintScale(const std::string& text) {
+  constexpr Bounds kPrinters = {0.7, 1.5};  // from A4 on A5 to A5 on A4
+  const double value = ParseNumber("--print-scale", text);
+  if (value > 100 * kPrinters.least && value < 100 * kPrinters.most) {
+    throw std::invalid_argument(fmt::format(
+        "--print-scale: is the bar's length over 100 mm; did you mean {}?", value / 100));
+  }
+  RequireWithin("--print-scale", value, kPrinters);
+  return value;
 }
 
 ScaleOptions ScaleFromFlags(const AnalysisFlags& flags) {
-  RequireOneScale(flags);
+  RequireUsed(flags);
   ScaleOptions scale;
-  scale.mm_per_px = Positive("--mm-per-px", flags.mm_per_px);
-  scale.dpi = Positive("--dpi", flags.dpi);
-  scale.length_mm = Positive("--length-mm", flags.length_mm);
-  scale.marker_mm = Positive("--marker-mm", flags.marker_mm);
+  scale.mm_per_px = Within("--mm-per-px", flags.mm_per_px, {1e-5, 100});
+  scale.dpi = Within("--dpi", flags.dpi, {1, 1e5});
+  scale.length_mm = Within("--length-mm", flags.length_mm, {0.1, 1e4});
+  scale.marker_mm = Within("--marker-mm", flags.marker_mm, {0.1, 1e4});
   if (flags.card)
     scale.card = *flags.card == "default" ? "default" : RequireFile("--card", *flags.card);
-  scale.print_scale = Positive("--print-scale", flags.print_scale).value_or(1.0);
-  if (flags.plane_height_mm) {
-    scale.plane_height_mm = ParseNumber("--plane-height-mm", *flags.plane_height_mm);
-  }
+  if (flags.print_scale) scale.print_scale = PrintScale(*flags.print_scale);
+  scale.plane_height_mm = Within("--plane-height-mm", flags.plane_height_mm, {-100, 1000});
   if (flags.camera) scale.camera = RequireFile("--camera", *flags.camera);
   scale.pixels = flags.units == "px";
   return scale;
@@ -93,7 +146,6 @@ SceneHints HintsFromFlags(const AnalysisFlags& flags) {
     hints.roi_px = {box[0], box[1], box[2], box[3]};
   }
   if (flags.tips_toward) hints.tips_toward = DirectionFromName(*flags.tips_toward);
-  if (flags.upper_is_left) hints.upper_is_left = true;
   return hints;
 }
 
@@ -101,10 +153,7 @@ std::vector<double> ThetaFromFlag(const std::optional<std::string>& theta_deg) {
   if (!theta_deg) return {};
   std::vector<double> theta_rad = ParseNumbers("--theta-deg", *theta_deg);
   for (double& angle : theta_rad) {
-    if (!(angle > 0 && angle < 180)) {
-      throw std::invalid_argument(
-          fmt::format("--theta-deg: must lie between 0 and 180, got {}", angle));
-    }
+    RequireWithin("--theta-deg", angle, {0.1, 150});
     angle *= kRadPerDeg;
   }
   return theta_rad;
@@ -152,11 +201,15 @@ void AddScaleFlags(CLI::App& command, AnalysisFlags* flags) {
     return command.add_option(name, value, help)->group(group);
   };
   add("--card", flags->card, "The printed card in the picture: FILE, or 'default'");
-  add("--marker-mm", flags->marker_mm, "Side of the DICT_4X4_50 markers in the picture, mm: six of their cells");
+  add("--marker-mm",
+      flags->marker_mm,
+      "Side of the DICT_4X4_50 markers in the picture, mm: six of their cells");
   add("--mm-per-px", flags->mm_per_px, "Millimetres a pixel, as from a calibrated stand");
   add("--dpi", flags->dpi, "Pixels an inch of a flatbed scan");
   add("--length-mm", flags->length_mm, "Pivot to distal end of the upper blade, mm");
-  add("--print-scale", flags->print_scale, "Measured length of the card's check bar over 100 mm");
+  add("--print-scale",
+      flags->print_scale,
+      "Measured length of the card's check bar over 100 mm, such as 0.985");
   add("--plane-height-mm",
       flags->plane_height_mm,
       "Height of the cutting edges above the sheet; without it: plane_height_unknown, 0 +- 2 mm");
@@ -166,7 +219,8 @@ void AddScaleFlags(CLI::App& command, AnalysisFlags* flags) {
 }
 
 void AddHintFlags(CLI::App& command, AnalysisFlags* flags) {
-  const char* group = "Hints (pixels of the picture as it is shown)";
+  const char* group =
+      "Hints (pixels of the picture as it is shown; all but --theta-deg hold for every PHOTO)";
   const auto add = [&](const char* name, auto& value, const char* help) {
     return command.add_option(name, value, help)->group(group);
   };
@@ -175,7 +229,10 @@ void AddHintFlags(CLI::App& command, AnalysisFlags* flags) {
   add("--tips-toward", flags->tips_toward, "Where the tips point")
       ->check(CLI::IsMember({"right", "left", "up", "down"}));
   add("--roi", flags->roi, "The scissors to look at: X,Y,W,H");
-  command.add_flag("--upper-is-left", flags->upper_is_left, "The upper blade is the left one")
+  command
+      .add_flag("--upper-is-left",
+                flags->upper_is_left,
+                "The upper blade is the left one, seen from the pivot: it always is (for scripts)")
       ->group(group);
 }
 

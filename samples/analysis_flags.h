@@ -22,7 +22,7 @@ struct AnalysisFlags {
   std::string units = "mm";
   // hints
   std::optional<std::string> theta_deg, pivot, tips_toward, roi, plane_height_mm, camera;
-  bool upper_is_left = false;
+  bool upper_is_left = false;  // it always is
   // fit
   std::string family = "auto", gain = "0.5", loss = "huber", knots = "auto";
   std::optional<std::string> degree;

@@ -8,6 +8,7 @@
 #include "model/blade_file.h"
 #include "samples/fit_record.h"
 #include "samples/fitted_photo.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {
@@ -139,7 +140,7 @@ std::string Status(const Analysis& analysis) {
 
 std::string BladeRecordText(const Analysis& analysis, const RecordOptions& options) {
   const FamilyFit& fit = analysis.fit.recommended;
-  const Json record = {
+  Json record = {
       {"format", "bladecurve/1"},
       {"name", options.name},
       {"status", Status(analysis)},
@@ -153,6 +154,7 @@ std::string BladeRecordText(const Analysis& analysis, const RecordOptions& optio
        {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
       {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
       {"photos", PhotosRecord(analysis, options.times)}};
+  if (analysis.photos.front().scale_source == kPixelsSource) record["units"] = "px";
   return LineAKey(record);
 }
 

@@ -8,7 +8,7 @@
 #include "samples/catalog_row.h"
 #include "samples/catalog_rows_file.h"
 #include "samples/catalog_sqlite.h"
-#include "samples/output_files.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {

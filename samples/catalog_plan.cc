@@ -17,7 +17,7 @@
 #include <stdexcept>
 
 #include "samples/csv_text.h"
-#include "samples/output_files.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {

@@ -14,9 +14,9 @@
 #include "samples/catalog_row.h"
 #include "samples/catalog_rows_file.h"
 #include "samples/fit_overlay.h"
-#include "samples/output_files.h"
 #include "vision/parallel.h"
 #include "vision/photo/png_writer.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {

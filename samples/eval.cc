@@ -14,7 +14,7 @@
 #include "model/blade_file.h"
 #include "samples/commands.h"
 #include "samples/flag_values.h"
-#include "samples/output_files.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
@@ -65,10 +65,7 @@ std::string EvalCsv(const BladeCurve& curve, double theta_rad, const std::vector
   return csv;
 }
 
-void Print(const std::string& text) {
-  std::cout << text << std::flush;
-  if (!std::cout) throw std::runtime_error("cannot write to standard output; is its reader gone?");
-}
+void Print(const std::string& text) { std::cout << text; }
 
 int RunEval(const EvalCommand& command) {
   const double theta_rad = ParseNumber("--theta-deg", command.theta_deg) * kRadPerDeg;

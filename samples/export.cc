@@ -15,8 +15,8 @@
 #include <system_error>
 
 #include "samples/commands.h"
-#include "samples/output_files.h"
 #include "vision/photo/sha256.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
@@ -59,9 +59,7 @@ fs::path OutputOf(const ExportCommand& command) {
 
 void WriteText(const ExportCommand& command, const std::string& text) {
   if (command.output == "-") {
-    std::cout << text << std::flush;
-    if (!std::cout)
-      throw std::runtime_error("cannot write to standard output; is its reader gone?");
+    std::cout << text;
     return;
   }
   WriteFileWhole(OutputOf(command), text);
@@ -69,6 +67,7 @@ void WriteText(const ExportCommand& command, const std::string& text) {
 
 int RunExport(const ExportCommand& command) {
   const BladeFile blade = ReadWithHash(command.blade);
+  if (command.as != "json") RequireMillimetres(blade);
   if (command.as == "json") {
     WriteText(command, BladeFileText(blade));
   } else if (command.as == "c") {

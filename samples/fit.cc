@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "samples/analysis.h"
@@ -16,9 +19,9 @@
 #include "samples/commands.h"
 #include "samples/fit_overlay.h"
 #include "samples/fit_summary.h"
-#include "samples/output_files.h"
 #include "samples/refusal.h"
 #include "vision/photo/png_writer.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
@@ -40,26 +43,22 @@ std::string OutputName(const FitCommand& command) {
   if (command.name.ends_with('/') || fs::is_directory(command.name)) {
     return (fs::path(command.name) / stem).string();
   }
-  const std::string ending = ".blade.json";
-  const bool ends = command.name.ends_with(ending);
-  return ends ? command.name.substr(0, command.name.size() - ending.size()) : command.name;
+  std::string name = command.name;
+  for (const std::string_view ending : {".json", ".blade"}) {
+    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+  }
+  const std::string last = fs::path(name).filename().string();
+  if (last.empty() || last == "-") {
+    throw std::invalid_argument(
+        fmt::format("-o: '{}' is no name for files; standard output takes --json -", command.name));
+  }
+  return name;
 }
 
 bool WritesFiles(const FitCommand& command) { return command.json != "-" || !command.name.empty(); }
 
 bool DrawsOverlays(const FitCommand& command) {
   return WritesFiles(command) || !command.overlay.empty();
-}
-
-// Impossible wishes are refused before any work is done.
-void RequirePossible(const FitCommand& command) {
-  if (!command.json.empty() && command.json != "-") {
-    throw std::invalid_argument(
-        "--json: takes '-', standard output; -o NAME writes NAME.blade.json");
-  }
-  if (!command.report.empty()) {
-    throw std::invalid_argument("--report: this version writes no report; use --overlay FILE.png");
-  }
 }
 
 // NAME.overlay.png, or NAME.1.overlay.png, NAME.2.overlay.png ... for several photographs.
@@ -76,8 +75,53 @@ std::vector<fs::path> OverlayPaths(const FitCommand& command, const std::string&
   return paths;
 }
 
-void WriteOverlays(const Analysis& analysis, const std::vector<fs::path>& paths) {
-  for (std::size_t i = 0; i < paths.size(); ++i) WritePng(paths[i], DrawFitOverlay(analysis, i));
+// What will be written, in the order in which it is.
+struct Outputs {
+  std::optional<fs::path> record;
+  std::vector<fs::path> overlays;
+
+  [[nodiscard]] std::vector<fs::path> All() const {
+    std::vector<fs::path> all = overlays;
+    if (record) all.insert(all.begin(), *record);
+    return all;
+  }
+};
+
+Outputs OutputsOf(const FitCommand& command) {
+  const std::string name = OutputName(command);
+  Outputs outputs;
+  if (WritesFiles(command)) outputs.record = name + ".blade.json";
+  if (DrawsOverlays(command)) outputs.overlays = OverlayPaths(command, name);
+  return outputs;
+}
+
+// A photograph that an output would replace is lost for ever.
+void RequireOtherThanPhotos(const FitCommand& command, const fs::path& output) {
+  std::error_code ignored;
+  for (const std::string& photo : command.photos) {
+    if (!fs::equivalent(output, photo, ignored)) continue;
+    throw std::invalid_argument(
+        fmt::format("{} is a photograph to be read; write to another name", output.string()));
+  }
+}
+
+// Impossible wishes are refused before any work is done.
+void RequirePossible(const FitCommand& command) {
+  if (!command.json.empty() && command.json != "-") {
+    throw std::invalid_argument(
+        "--json: takes '-', standard output; -o NAME writes NAME.blade.json");
+  }
+  if (!command.report.empty()) {
+    throw std::invalid_argument("--report: this version writes no report; use --overlay FILE.png");
+  }
+  if (!command.overlay.empty() && fs::path(command.overlay).extension() != ".png") {
+    throw std::invalid_argument(
+        fmt::format("--overlay: writes a PNG; '{}' does not end in .png", command.overlay));
+  }
+  for (const fs::path& output : OutputsOf(command).All()) {
+    RequireOtherThanPhotos(command, output);
+    RequireWritable(output);
+  }
 }
 
 void Report(const FitCommand& command,
@@ -89,23 +133,16 @@ void Report(const FitCommand& command,
 }
 
 void Deliver(const FitCommand& command, const Analysis& analysis) {
-  const std::string name = OutputName(command);
-  const std::string record =
-      BladeRecordText(analysis, {fs::path(name).filename().string(), !command.no_times});
-  std::vector<fs::path> written;
-  if (WritesFiles(command)) {
-    written.emplace_back(name + ".blade.json");
-    WriteFileWhole(written.back(), record);
-  }
-  if (DrawsOverlays(command)) {
-    const std::vector<fs::path> overlays = OverlayPaths(command, name);
-    WriteOverlays(analysis, overlays);
-    written.insert(written.end(), overlays.begin(), overlays.end());
-  }
+  const std::string name = fs::path(OutputName(command)).filename().string();
+  const std::string record = BladeRecordText(analysis, {name, !command.no_times});
+  const Outputs outputs = OutputsOf(command);
+  if (outputs.record) WriteFileWhole(*outputs.record, record);
+  for (std::size_t i = 0; i < outputs.overlays.size(); ++i)
+    WritePng(outputs.overlays[i], DrawFitOverlay(analysis, i));
   if (command.json == "-") {
     std::cout << record;
   } else if (!command.quiet) {
-    Report(command, analysis, written);
+    Report(command, analysis, outputs.All());
   }
 }
 
@@ -133,12 +170,12 @@ void AddFit(CLI::App& app, int* exit_code) {
   fit->add_option("PHOTO", command->photos, "The same scissors, at one or several angles")
       ->required();
   AddAnalysisFlags(*fit, &command->analysis);
-  fit->add_option("-o",
+  fit->add_option("-o,--output",
                   command->name,
                   "Write NAME.blade.json and NAME.overlay.png (default: the photograph's name)");
   fit->add_option(
       "--json", command->json, "'-': the result on standard output, no files unless -o is given");
-  fit->add_option("--overlay", command->overlay, "Another place for the overlay picture");
+  fit->add_option("--overlay", command->overlay, "FILE.png: another place for the overlay picture");
   fit->add_option("--report", command->report, "A page with all figures (not in this version)");
   fit->add_flag("--quiet", command->quiet, "Print nothing but refusals and errors");
   fit->add_flag("--no-times", command->no_times, "Leave times out: same input, same bytes");

@@ -65,4 +65,10 @@ void RequirePositive(const std::string& flag, double value) {
   }
 }
 
+void RequireWithin(const std::string& flag, double value, const Bounds& bounds) {
+  if (value >= bounds.least && value <= bounds.most) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: must lie between {} and {}, got {}", flag, bounds.least, bounds.most, value));
+}
+
 }  // namespace bladecurve

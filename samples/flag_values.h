@@ -26,4 +26,10 @@ namespace bladecurve {
 // A length, a scale or a factor: finite and above zero.
 void RequirePositive(const std::string& flag, double value);
 
+// What no picture, print or pair of scissors exceeds.
+struct Bounds {
+  double least = 0, most = 0;
+};
+void RequireWithin(const std::string& flag, double value, const Bounds& bounds);
+
 }  // namespace bladecurve

@@ -15,7 +15,7 @@
 #include "samples/commands.h"
 #include "samples/flag_values.h"
 #include "samples/identify_record.h"
-#include "samples/output_files.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
@@ -48,6 +48,7 @@ IdentifyInput InputOf(const IdentifyCommand& command) {
                       ReadBladeFile(command.blade),
                       {command.x_edge_mm, command.x_end_mm},
                       command.thickness_mm};
+  RequireMillimetres(input.blade);
   for (const std::string& file : command.cuts) input.cuts.push_back(ReadForceLog(file, radius_mm));
   for (const std::string& file : command.empties)
     input.empties.push_back(ReadForceLog(file, radius_mm));

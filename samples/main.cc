@@ -84,6 +84,14 @@ void AddCommands(CLI::App& app, int* exit_code) {
   AddCard(app, exit_code);
 }
 
+// What could not be written is lost: a full disk, a reader that is gone.
+int IfWritten(const CLI::App& app, int exit_code) {
+  std::cout.flush();
+  if (std::cout) return exit_code;
+  return Complain(
+      app, "cannot write to standard output; is the disk full, or its reader gone?", kExitError);
+}
+
 int Run(int argc, char** argv) {
   CLI::App app("From a photograph of scissors to a blade curve that cuts.", "bladecurve");
   app.set_version_flag("--version", "bladecurve " BLADECURVE_VERSION);
@@ -92,14 +100,14 @@ int Run(int argc, char** argv) {
   AddCommands(app, &exit_code);
   try {
     app.parse(argc, argv);
-    return exit_code;
+    return IfWritten(app, exit_code);
   } catch (const CLI::Success& help) {
-    return app.exit(help);
+    return IfWritten(app, app.exit(help));
   } catch (const CLI::ParseError& error) {
     return Complain(app, WrongUseMessage(app, error), kExitUsage);
   } catch (const Refused& refusal) {
     std::cout << RefusalText(refusal, "") << '\n';
-    return Complain(app, refusal.what(), kExitRefused);
+    return IfWritten(app, Complain(app, refusal.what(), kExitRefused));
   } catch (const std::invalid_argument& error) {
     return Complain(app, error.what(), kExitUsage);
   } catch (const std::exception& error) {

@@ -20,10 +20,10 @@
 #include "samples/cut_run.h"
 #include "samples/flag_values.h"
 #include "samples/material_choice.h"
-#include "samples/output_files.h"
 #include "samples/torque_plot.h"
 #include "samples/torque_realtime.h"
 #include "vision/photo/png_writer.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
@@ -171,6 +171,7 @@ void RunTorque(const TorqueCommand& command) {
   RequirePossible(command);
   const double radius_mm = command.radius_mm.value_or(std::numeric_limits<double>::quiet_NaN());
   const BladeFile blade = ReadBladeFile(command.blade);
+  RequireMillimetres(blade);
   const Material material = ChooseMaterial(command.material);
   std::vector<MotionSample> motion = MotionOf(command, radius_mm);
   const PlateSpan span = SpanOf(command, blade.curve, material, motion);

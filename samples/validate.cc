@@ -16,13 +16,13 @@
 
 #include "model/scratch_folder.h"
 #include "samples/commands.h"
-#include "samples/output_files.h"
 #include "samples/validate_blade.h"
 #include "samples/validation_plot.h"
 #include "samples/validation_run.h"
 #include "samples/validation_scene.h"
 #include "samples/validation_table.h"
 #include "vision/parallel.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {

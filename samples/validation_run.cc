@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "samples/analysis.h"
-#include "samples/output_files.h"
 #include "samples/validation_errors.h"
+#include "vision/photo/whole_file.h"
 #include "vision/render/render.h"
 
 namespace bladecurve {

@@ -10,14 +10,9 @@ namespace bladecurve {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-BladeFrame::BladeFrame(const PlaneMap& map,
-                       const Vector2d& pivot_px,
-                       const Vector2d& x_in_plane,
-                       bool upper_on_left)
+BladeFrame::BladeFrame(const PlaneMap& map, const Vector2d& pivot_px, const Vector2d& x_in_plane)
     : map_(map), pivot_px_(pivot_px), pivot_in_plane_(map.PlaneFromImage(pivot_px)) {
-  const double side = upper_on_left ? 1 : -1;
-  frame_from_plane_ << x_in_plane.x(), x_in_plane.y(), -side * x_in_plane.y(),
-      side * x_in_plane.x();
+  frame_from_plane_ << x_in_plane.x(), x_in_plane.y(), -x_in_plane.y(), x_in_plane.x();
 }
 
 Vector2d BladeFrame::FromImage(const Vector2d& image_px) const {

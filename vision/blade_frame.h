@@ -13,12 +13,10 @@ namespace bladecurve {
 // symmetry line.
 class BladeFrame {
  public:
-  // x_in_plane: unit; upper_on_left: the upper blade lies counter-clockwise of +x in the plane
-  // (else the frame is mirrored).
+  // x_in_plane: unit.
   BladeFrame(const PlaneMap& map,
              const Eigen::Vector2d& pivot_px,
-             const Eigen::Vector2d& x_in_plane,
-             bool upper_on_left);
+             const Eigen::Vector2d& x_in_plane);
 
   [[nodiscard]] Eigen::Vector2d FromImage(const Eigen::Vector2d& image_px) const;
   [[nodiscard]] EdgePoint FromImage(const Eigen::Vector2d& image_px,
@@ -39,7 +37,7 @@ class BladeFrame {
   const PlaneMap& map_;
   Eigen::Vector2d pivot_px_;
   Eigen::Vector2d pivot_in_plane_;
-  Eigen::Matrix2d frame_from_plane_;  // orthogonal; a reflection where the frame is mirrored
+  Eigen::Matrix2d frame_from_plane_;  // a rotation
 };
 
 }  // namespace bladecurve

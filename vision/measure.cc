@@ -24,53 +24,19 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d DirectionInStored(const Photo& photo, Direction direction) {
-  Vector2d displayed = Vector2d::Zero();
-  switch (direction) {
-    case Direction::kRight:
-      displayed = {1, 0};
-      break;
-    case Direction::kLeft:
-      displayed = {-1, 0};
-      break;
-    case Direction::kUp:
-      displayed = {0, -1};
-      break;
-    case Direction::kDown:
-      displayed = {0, 1};
-      break;
-  }
-  return photo.StoredFromDisplayed(displayed) - photo.StoredFromDisplayed(Vector2d::Zero());
-}
-
-StoredHints InStored(const Photo& photo, const SceneHints& hints) {
-  StoredHints stored;
-  if (hints.pivot_px) stored.pivot_px = photo.StoredFromDisplayed(*hints.pivot_px);
-  if (hints.tips_toward) stored.tips_direction = DirectionInStored(photo, *hints.tips_toward);
-  if (hints.roi_px) {
-    const auto& [x, y, width, height] = *hints.roi_px;
-    const Vector2d a = photo.StoredFromDisplayed({x, y});
-    const Vector2d b = photo.StoredFromDisplayed({x + width - 1, y + height - 1});
-    const Vector2d low = a.cwiseMin(b);
-    const Vector2d high = a.cwiseMax(b);
-    stored.roi_px = cv::Rect(static_cast<int>(std::floor(low.x())),
-                             static_cast<int>(std::floor(low.y())),
-                             static_cast<int>(std::lround(high.x() - low.x())) + 1,
-                             static_cast<int>(std::lround(high.y() - low.y())) + 1);
-  }
-  return stored;
-}
-
 PlaneMap MapFor(const ScaleResult& scale,
                 const ScaleOptions& options,
                 const Pivot& pivot,
                 const LocatedBlade& upper) {
   if (scale.map) return *scale.map;
   // --length-mm: the distance from the pivot to the upper distal end.
-  const double length_px = (upper.end.point_px - pivot.point_px).norm();
+  const double length_px =
+      (Undistorted(scale.lens, upper.end.point_px) - Undistorted(scale.lens, pivot.point_px))
+          .norm();
   const double sigma_px =
       std::sqrt(pivot.covariance_px2.trace() / 2 + std::pow(upper.end.along_sigma_px, 2));
-  return PlaneMap::Uniform(*options.length_mm / length_px, sigma_px / length_px, "length");
+  return PlaneMap::Uniform(
+      *options.length_mm / length_px, sigma_px / length_px, "length", scale.lens);
 }
 
 std::vector<EdgePoint> ToFrame(const BladeFrame& frame,
@@ -147,13 +113,12 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   std::string sha256;
   ParallelAside([&] { finder.emplace(photo, scale.markers, hints, &log); },
                 [&] { sha256 = photo.Sha256(); });  // where finding leaves a thread idle
-  const bool upper_on_left = options.hints.upper_is_left.value_or(true);
-  const Scissors scissors = LocateScissors({photo, scale, hints, upper_on_left}, &*finder, &log);
+  const Scissors scissors = LocateScissors({photo, scale, hints}, &*finder, &log);
   const Pivot& pivot = scissors.pivot;
   const Blades& blades = scissors.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
   const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
-  const BladeFrame frame(map, pivot.point_px, opening.x_in_plane, upper_on_left);
+  const BladeFrame frame(map, pivot.point_px, opening.x_in_plane);
 
   PhotoMeasurement result;
   result.file = path.string();

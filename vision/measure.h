@@ -12,22 +12,12 @@
 #include <vector>
 
 #include "vision/edge_points.h"
+#include "vision/hints.h"
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/stage_log.h"
 
 namespace bladecurve {
-
-enum class Direction { kRight, kLeft, kUp, kDown };
-
-// What the user knows about the picture; all in displayed pixels.
-struct SceneHints {
-  std::optional<Eigen::Vector2d> pivot_px;
-  std::optional<std::array<double, 4>> roi_px;  // x, y, width, height: the scissors to look at
-  std::optional<Direction> tips_toward;
-  std::optional<bool> upper_is_left;  // the upper blade is the left one as the picture is seen
-  std::optional<double> theta_rad;
-};
 
 struct MeasureOptions {
   ScaleOptions scale;

@@ -64,6 +64,39 @@ TEST(CommandLine, ValuesThatCannotBeAreNamed) {
   ExpectWrongUse({"fit", "a.jpg", "--tips-toward", "north"}, "--tips-toward");
 }
 
+TEST(CommandLine, ValuesBeyondAllPicturesAreNamed) {
+  ExpectWrongUse({"fit", "a.jpg", "--mm-per-px", "1e6"}, "--mm-per-px: must lie between");
+  ExpectWrongUse({"fit", "a.jpg", "--dpi", "1e-99"}, "--dpi: must lie between");
+  ExpectWrongUse({"fit", "a.jpg", "--marker-mm", "1e99"}, "--marker-mm: must lie between");
+  ExpectWrongUse({"fit", "a.jpg", "--theta-deg", "179"}, "--theta-deg: must lie between");
+  ExpectWrongUse({"fit", "a.jpg", "--card", "default", "--print-scale", "97"},
+                 "did you mean 0.97?");
+  ExpectWrongUse({"fit", "a.jpg", "--card", "default", "--print-scale", "3"},
+                 "--print-scale: must");
+}
+
+TEST(CommandLine, FlagsThatWouldBePassedOverAreNamed) {
+  ExpectWrongUse({"fit", "a.jpg", "--marker-mm", "25", "--print-scale", "0.97"},
+                 "--marker-mm has no use for it");
+  ExpectWrongUse({"fit", "a.jpg", "--mm-per-px", "0.1", "--plane-height-mm", "2"},
+                 "--mm-per-px has no use for it");
+  ExpectWrongUse({"fit", "a.jpg", "--dpi", "600", "--camera", "c.json"}, "--dpi has no use for it");
+}
+
+TEST(CommandLine, OutputsThatCannotBeAreNamedBeforeAnyWork) {
+  ExpectWrongUse({"fit", "a.jpg", "-o", "-"}, "-o: '-' is no name");
+  ExpectWrongUse({"fit", "a.jpg", "-o", ".blade.json"}, "is no name for files");
+  ExpectWrongUse({"fit", "a.jpg", "--overlay", "a.jpg"}, "does not end in .png");
+  ExpectWrongUse({"card", "-o", "card.gif"}, "ends in none of");
+  ExpectWrongUse({"card", "-o", "card.png", "--dpi", "50"}, "--dpi: must lie between");
+}
+
+TEST(CommandLine, LostOutputIsAnError) {
+  const ProgramRun run = RunBladecurve({"--help"}, TestFolder(), "/dev/full");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.standard_error.find("cannot write to standard output"), std::string::npos);
+}
+
 TEST(CommandLine, HelpAndVersionGoToStandardOutput) {
   for (const char* flag : {"--help", "--version"}) {
     const ProgramRun run = RunBladecurve({flag}, TestFolder());

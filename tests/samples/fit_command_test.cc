@@ -199,6 +199,53 @@ TEST(Fit, GivenThetaIsAsGoodAsAProtractorAndIsDoubtedWhereTheEndsSayOtherwise) {
   EXPECT_EQ(far["status"], "review");
 }
 
+TEST(Fit, OnePictureGivenTwiceIsWrongUse) {
+  const fs::path folder = TestFolder();
+  const std::string jpeg = JpegFile(PhotoFromAbove().bgr);
+  WriteText(folder / "a.jpg", jpeg);
+  WriteText(folder / "b.jpg", jpeg);
+  const ProgramRun run = RunBladecurve({"fit", "a.jpg", "b.jpg", "--mm-per-px", "0.2"}, folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.standard_error.find("a.jpg and b.jpg are the same picture"), std::string::npos);
+}
+
+TEST(Fit, NoOutputReplacesAPhotograph) {
+  const fs::path folder = TestFolder();
+  const std::string png = PngFile(PhotoFromAbove().bgr, PngKind::kRgb8);
+  WriteText(folder / "a.png", png);
+  const ProgramRun run =
+      RunBladecurve({"fit", "a.png", "--mm-per-px", "0.2", "--overlay", "a.png"}, folder);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(ReadText(folder / "a.png"), png);
+}
+
+TEST(Fit, HintsOutsideThePictureAreWrongUse) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "a.jpg", JpegFile(PhotoFromAbove().bgr));
+  for (const auto& [flag, value] : std::vector<std::pair<std::string, std::string>>{
+           {"--pivot", "5000,10"}, {"--pivot", "-5,10"}, {"--roi", "3000,0,100,100"}}) {
+    const ProgramRun run =
+        RunBladecurve({"fit", "a.jpg", "--mm-per-px", "0.2", flag + "=" + value}, folder);
+    EXPECT_EQ(run.exit_code, 2) << flag;
+    EXPECT_NE(run.standard_error.find("outside the picture"), std::string::npos) << flag;
+  }
+}
+
+TEST(Fit, PixelsCutNothing) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "a.jpg", JpegFile(PhotoFromAbove().bgr));
+  const ProgramRun fit = RunBladecurve({"fit", "a.jpg", "--units", "px"}, folder);
+  EXPECT_EQ(fit.exit_code, 0) << fit.standard_error;
+  EXPECT_EQ(Json::parse(ReadText(folder / "a.blade.json"))["units"], "px");
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"torque", "a.blade.json", "--material", "paper", "--close-deg", "30:1"},
+           {"export", "a.blade.json", "--as", "c"}}) {
+    const ProgramRun run = RunBladecurve(arguments, folder);
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.standard_error.find("is in pixels"), std::string::npos) << run.standard_error;
+  }
+}
+
 TEST(Fit, EveryOrientationGivesTheDisplayedPicture) {
   const fs::path folder = TestFolder();
   const Json upright = MustFitFile(folder, "1.jpg", JpegFile(PhotoFromAbove().bgr));

@@ -23,8 +23,12 @@ std::string Quoted(const std::string& argument) {
 
 }  // namespace
 
-ProgramRun RunBladecurve(const std::vector<std::string>& arguments, const fs::path& folder) {
-  const fs::path out = folder / "standard_output.txt", err = folder / "standard_error.txt";
+ProgramRun RunBladecurve(const std::vector<std::string>& arguments,
+                         const fs::path& folder,
+                         const fs::path& standard_output) {
+  const bool kept = standard_output.empty();
+  const fs::path out = kept ? folder / "standard_output.txt" : standard_output;
+  const fs::path err = folder / "standard_error.txt";
   std::ostringstream command;
   command << "cd " << Quoted(folder.string()) << " && " << Quoted(BLADECURVE_PROGRAM);
   for (const std::string& argument : arguments) command << ' ' << Quoted(argument);
@@ -33,7 +37,7 @@ ProgramRun RunBladecurve(const std::vector<std::string>& arguments, const fs::pa
   ProgramRun run;
   // The shell reports a signal n as 128 + n.
   if (WIFEXITED(status) && WEXITSTATUS(status) < 128) run.exit_code = WEXITSTATUS(status);
-  run.standard_output = ReadText(out);
+  if (kept) run.standard_output = ReadText(out);
   run.standard_error = ReadText(err);
   return run;
 }

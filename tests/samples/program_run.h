@@ -13,9 +13,11 @@ struct ProgramRun {
   std::string standard_output, standard_error;
 };
 
-// Runs the program `bladecurve` with these arguments in `folder` and waits for it.
+// Runs the program `bladecurve` with these arguments in `folder` and waits for it. Its standard
+// output goes to `standard_output` instead of into the result, if that is given.
 [[nodiscard]] ProgramRun RunBladecurve(const std::vector<std::string>& arguments,
-                                       const std::filesystem::path& folder);
+                                       const std::filesystem::path& folder,
+                                       const std::filesystem::path& standard_output = {});
 
 // An empty folder of the running test's own.
 [[nodiscard]] std::filesystem::path TestFolder();

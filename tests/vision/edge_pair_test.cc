@@ -18,7 +18,6 @@ namespace bladecurve {
 namespace {
 
 using testing::FarFrom;
-using testing::kUpperOnLeft;
 using testing::Measured;
 using testing::SceneWithShadow;
 
@@ -56,7 +55,7 @@ struct Seen {
   }
 
   [[nodiscard]] BladeEdges Locate() const {
-    return LocateBlades(photo, scale, scene, kUpperOnLeft);
+    return LocateBlades(photo, scale, scene);
   }
 
   Photo photo;
@@ -255,7 +254,7 @@ class PaintedBlades {
     cv::resize(fine_, bgr, {}, 1.0 / kFiner, 1.0 / kFiner, cv::INTER_AREA);
     cv::GaussianBlur(bgr, bgr, {}, blur_px);
     const Photo photo = Measured::PhotoOf(bgr);
-    return LocateBlades(photo, FindScale(photo, options), scene, kUpperOnLeft);
+    return LocateBlades(photo, FindScale(photo, options), scene);
   }
 
   static void ExpectOnEdges(const BladeEdges& edges) {

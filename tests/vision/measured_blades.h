@@ -27,7 +27,6 @@ namespace bladecurve::testing {
 using Eigen::Vector2d;
 
 inline constexpr double kMarkerMm = 25;
-inline constexpr bool kUpperOnLeft = true;  // the scene's tips lie to the right
 
 inline SceneSpec SceneWithMarkers() {
   SceneSpec spec;
@@ -116,9 +115,8 @@ struct Measured {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
     for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();
-    BladeEdges edges = LocateBlades(photo, scale, scene, kUpperOnLeft);
-    blades = {
-        {kUpperOnLeft, edges.upper, {}, {}, {}}, {!kUpperOnLeft, edges.lower, {}, {}, {}}, false};
+    BladeEdges edges = LocateBlades(photo, scale, scene);
+    blades = {{true, edges.upper, {}, {}, {}}, {false, edges.lower, {}, {}, {}}, false};
     for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
     pivot.point_px = truth.pivot_px;
     pivot.covariance_px2.setIdentity();

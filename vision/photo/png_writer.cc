@@ -8,23 +8,20 @@
 #include <algorithm>
 #include <cmath>
 #include <csetjmp>
-#include <cstdio>
 #include <memory>
 #include <new>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "vision/parallel.h"
+#include "vision/photo/whole_file.h"
 
 namespace bladecurve {
 namespace {
 
 constexpr double kInchesPerMetre = 1 / 0.0254;
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 struct FreeCompressor {
   void operator()(libdeflate_compressor* compressor) const {
@@ -99,15 +96,22 @@ void WriteHeader(const PngWriter& writer, const cv::Mat& image, double dpi) {
   png_write_info(writer.png, writer.info);
 }
 
+// To the std::string that png_get_io_ptr points to.
+void Append(png_structp png, png_bytep data, png_size_t size) {
+  static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), size);
+}
+
+void NothingToFlush(png_structp) {}
+
 // False if libpng failed. No object with a destructor lives here: libpng's jump would skip it.
 bool WriteChunks(const PngWriter& writer,
-                 std::FILE* file,
+                 std::string* bytes,
                  const cv::Mat& image,
                  const std::vector<uchar>& packed,
                  double dpi) {
   static constexpr png_byte kPixels[] = "IDAT", kEnd[] = "IEND";
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
-  png_init_io(writer.png, file);
+  png_set_write_fn(writer.png, bytes, Append, NothingToFlush);
   WriteHeader(writer, image, dpi);
   png_write_chunk(writer.png, kPixels, packed.data(), packed.size());
   png_write_chunk(writer.png, kEnd, nullptr, 0);
@@ -120,16 +124,12 @@ void WritePng(const std::filesystem::path& path, const cv::Mat& image, const Png
   if (image.empty() || (image.type() != CV_8UC1 && image.type() != CV_8UC3)) {
     throw std::invalid_argument("WritePng: image must be CV_8UC1 or CV_8UC3 and not empty");
   }
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wb"));
-  if (!file)
-    throw std::runtime_error("png: cannot write " + path.string() +
-                             "; is the folder there and writable?");
   const std::vector<uchar> packed = Compressed(FilteredRows(InRgb(image)));
   const PngWriter writer;
-  if (!WriteChunks(writer, file.get(), image, packed, options.dpi) ||
-      std::fflush(file.get()) != 0) {
-    throw std::runtime_error("png: writing " + path.string() + " failed; is the disk full?");
-  }
+  std::string bytes;
+  if (!WriteChunks(writer, &bytes, image, packed, options.dpi))
+    throw std::runtime_error("png: " + path.string() + " could not be encoded");
+  WriteFileWhole(path, bytes);
 }
 
 }  // namespace bladecurve

@@ -58,15 +58,14 @@ void DrawMarker(const Card& card, const Card::Marker& marker, std::vector<Rectan
   }
 }
 
-// A bar of 100 mm with ticks every 10 mm, along the top of `area`.
+// A bar with ticks every 10 mm, the middles of the outermost 100 mm apart, along the top of `area`.
 void DrawCheckBar(const std::array<double, 4>& area, std::vector<Rectangle>* out) {
   constexpr double kLineMm = 0.3, kTickMm = 1.6, kEndTickMm = 3;
-  const double left = area[0] + 0.5 * (area[2] - kBarMm), top = area[1] + area[3];
-  out->push_back({left, top - 0.5 * kEndTickMm - 0.5 * kLineMm, kBarMm, kLineMm, true});
+  const double left = area[0] + 0.5 * (area[2] - kBarMm) - 0.5 * kLineMm, top = area[1] + area[3];
+  out->push_back({left, top - 0.5 * kEndTickMm - 0.5 * kLineMm, kBarMm + kLineMm, kLineMm, true});
   for (int i = 0; i <= 10; ++i) {
     const double height = i % 10 == 0 ? kEndTickMm : kTickMm;
-    // The end ticks lie inside, so that their outer sides are 100 mm apart.
-    const double x = left + i * kBarMm / 10 - kLineMm * i / 10;
+    const double x = left + i * kBarMm / 10;
     out->push_back({x, top - 0.5 * kEndTickMm - 0.5 * height, kLineMm, height, true});
   }
 }
@@ -103,14 +102,14 @@ void DrawTitle(const Card& card, CardDrawing* drawing) {
 
 void DrawInstructions(const Card& card, CardDrawing* drawing) {
   const auto& area = card.print_mm[1];
-  DrawLines(
-      {"Measure this bar. If it is not 100 mm long, add --print-scale LENGTH/100 when fitting.",
-       "Lay the sheet flat, the blades open inside the ring of markers. Photograph the whole",
-       "sheet from straight above and 300 mm or more away, sharp and not overexposed.",
-       "bladecurve fit PHOTO --plane-height-mm (cutting edge above the sheet)"},
-      {area[0], area[1] + area[3] - 6},
-      kSmallMm,
-      drawing);
+  DrawLines({"Measure from end tick to end tick, middle to middle: not 100 mm? Add --print-scale "
+             "LENGTH/100.",
+             "Lay the sheet flat, the blades open inside the ring of markers. Photograph the whole",
+             "sheet from straight above and 300 mm or more away, sharp and not overexposed.",
+             "bladecurve fit PHOTO --plane-height-mm (cutting edge above the sheet)"},
+            {area[0], area[1] + area[3] - 6},
+            kSmallMm,
+            drawing);
 }
 
 // Share of the pixel from `index` to the next that lies between two ends.

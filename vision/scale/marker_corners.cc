@@ -70,7 +70,8 @@ int QuickReduction(const cv::Mat& grey) {
 std::vector<SeenMarker> FindAtReduction(const cv::Mat& grey, const ToneCurve& tone, int reduction) {
   cv::Mat small = grey;
   if (reduction > 1) {
-    cv::resize(grey, small, {grey.cols / reduction, grey.rows / reduction}, 0, 0, cv::INTER_AREA);
+    const cv::Size size(std::max(1, grey.cols / reduction), std::max(1, grey.rows / reduction));
+    cv::resize(grey, small, size, 0, 0, cv::INTER_AREA);
   }
   const Vector2d factor(static_cast<double>(grey.cols) / small.cols,
                         static_cast<double>(grey.rows) / small.rows);
@@ -163,6 +164,8 @@ SeenMarker LocateMarkerCorners(const cv::Mat& grey,
 std::vector<SeenMarker> FindMarkers(const cv::Mat& grey,
                                     const ToneCurve& tone,
                                     MarkerEffort effort) {
+  constexpr int kSmallest = 8;  // px across; less holds no marker
+  if (std::min(grey.cols, grey.rows) < kSmallest) return {};
   int reduction = QuickReduction(grey);
   std::vector<SeenMarker> markers = FindAtReduction(grey, tone, reduction);
   while (effort == MarkerEffort::kThorough && reduction > 1 && !AnyLocated(markers)) {

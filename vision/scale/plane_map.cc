@@ -17,13 +17,17 @@ Eigen::Vector2d Project(const Eigen::Matrix3d& homography, const Eigen::Vector2d
 
 }  // namespace
 
-PlaneMap PlaneMap::Uniform(double mm_per_px, double relative_sigma, std::string source) {
+PlaneMap PlaneMap::Uniform(double mm_per_px,
+                           double relative_sigma,
+                           std::string source,
+                           const Camera& lens) {
   if (!(mm_per_px > 0) || !std::isfinite(mm_per_px)) {
     throw std::invalid_argument("PlaneMap: mm_per_px must be positive, not " +
                                 std::to_string(mm_per_px));
   }
   PlaneGeometry geometry;
   geometry.plane_from_undistorted.diagonal() << mm_per_px, -mm_per_px, 1;
+  geometry.camera = lens;
   return FromGeometry(geometry, relative_sigma, std::move(source));
 }
 

@@ -22,9 +22,12 @@ struct PlaneGeometry {
 // are arbitrary.
 class PlaneMap {
  public:
-  // Uniform scale, no perspective. Throws std::invalid_argument unless mm_per_px is positive and
-  // finite.
-  static PlaneMap Uniform(double mm_per_px, double relative_sigma, std::string source);
+  // Uniform scale, no perspective, but for what the lens bends. Throws std::invalid_argument unless
+  // mm_per_px is positive and finite.
+  static PlaneMap Uniform(double mm_per_px,
+                          double relative_sigma,
+                          std::string source,
+                          const Camera& lens = {});
   // Throws std::invalid_argument for a singular homography.
   static PlaneMap FromGeometry(const PlaneGeometry& geometry,
                                double relative_sigma,

@@ -39,6 +39,11 @@ void CheckOptions(const ScaleOptions& options) {
     throw std::invalid_argument(
         "scale: give only one of mm_per_px, dpi, length_mm, marker_mm, card and pixels");
   }
+  const bool no_sheet = options.mm_per_px || options.dpi || options.length_mm || options.pixels;
+  if (no_sheet && (options.plane_height_mm || options.print_scale != 1))
+    throw std::invalid_argument("scale: plane_height_mm and print_scale are a sheet's");
+  if (options.camera && (options.dpi || options.pixels))
+    throw std::invalid_argument("scale: camera says nothing about a scan, or pixels");
 }
 
 PlaneMap FromDpi(double dpi, const std::string& source) {
@@ -52,12 +57,19 @@ PlaneMap FromDpi(double dpi, const std::string& source) {
                 "it, or give --mm-per-px, --dpi, --length-mm or --marker-mm, or --units px");
 }
 
+// What is said of a printed sheet is to be used, not passed over.
+bool NeedsSheet(const ScaleOptions& options) {
+  return options.print_scale != 1 || options.plane_height_mm || options.camera;
+}
+
 // The map that needs no marker, if the options or the file say one.
-std::optional<PlaneMap> UniformMap(const Photo& photo, const ScaleOptions& options) {
+std::optional<PlaneMap> UniformMap(const Photo& photo,
+                                   const ScaleOptions& options,
+                                   const Camera& lens) {
   if (options.pixels) return PlaneMap::Uniform(1, 0, kPixelsSource);
-  if (options.mm_per_px) return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px");
+  if (options.mm_per_px) return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px", lens);
   if (options.dpi) return FromDpi(*options.dpi, "dpi");
-  if (!photo.metadata().dpi) return std::nullopt;
+  if (!photo.metadata().dpi || NeedsSheet(options)) return std::nullopt;
   return FromDpi(*photo.metadata().dpi, "file-dpi").WithWarnings({"scale_from_file_dpi"});
 }
 
@@ -80,6 +92,8 @@ ScaleResult FindScale(const Photo& photo, const ScaleOptions& options) {
   CheckOptions(options);
   ScaleResult result;
   result.tone = SrgbToneCurve();
+  if (options.camera && (options.mm_per_px || options.length_mm))
+    result.lens = ReadCamera(*options.camera, photo.grey().cols, photo.grey().rows);
   if (options.length_mm) return result;
   if (options.marker_mm) return ScaleFromLooseMarkers(photo, options);
   if (options.card) return ScaleFromCard(photo, options);
@@ -87,7 +101,7 @@ ScaleResult FindScale(const Photo& photo, const ScaleOptions& options) {
     std::optional<ScaleResult> card = ScaleFromCardIfSeen(photo, options);
     if (card) return *std::move(card);
   }
-  result.map = UniformMap(photo, options);
+  result.map = UniformMap(photo, options, result.lens);
   if (!result.map) RefuseWithoutScale();
   return result;
 }

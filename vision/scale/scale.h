@@ -51,6 +51,7 @@ struct SeenMarker {
 
 struct ScaleResult {
   std::optional<PlaneMap> map;         // absent only while length_mm waits for the scene
+  Camera lens;                         // of the map that then is made
   std::optional<SheetSolution> sheet;  // where markers say how the camera stands over it
   double plane_height_mm = 0;          // of the map's plane over the sheet
   std::vector<SeenMarker> markers;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,11 +73,23 @@ CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
   return {CentredCamera(guess, width, height), kUnknownFocal, kUnknownK1};
 }
 
+// Blades lie between the sheet and the camera, by far nearer to the sheet.
+void CheckHeight(const SheetSolution& solution, double height_mm) {
+  constexpr double kMost = 0.5;  // of the camera's height
+  const double camera_mm = solution.pose.CameraHeightMm();
+  if (height_mm <= kMost * camera_mm) return;
+  throw std::invalid_argument("scale: blades " + std::to_string(std::lround(height_mm)) +
+                              " mm above the sheet: the camera stands " +
+                              std::to_string(std::lround(camera_mm)) +
+                              " mm above it; give a smaller --plane-height-mm");
+}
+
 PlaneMap MapOf(const SheetSolution& solution,
                const std::vector<SeenMarker>& markers,
                const Photo& photo,
                const ScaleOptions& options) {
   const double height_mm = options.plane_height_mm.value_or(0);
+  CheckHeight(solution, height_mm);
   const LengthPlace place{InnerGrid(photo.grey().cols, photo.grey().rows),
                           height_mm,
                           options.plane_height_mm ? kGivenHeightSigmaMm : kUnknownHeightMm};
@@ -132,9 +145,23 @@ ScaleResult Solve(const Photo& photo,
       Reason::kNoScale,
       markers.empty()
           ? "scale: no marker of DICT_4X4_50 is seen; keep it whole in the picture, uncovered and "
-            "with white paper around it"
+            "with white paper around it, and do not mirror the picture"
           : "scale: a marker is seen, but not its four sides; keep it uncovered, sharp and not "
             "overexposed");
+}
+
+// Markers are seen, but none that is printed on a card.
+[[noreturn]] void RefuseOtherMarkers(const std::vector<SeenMarker>& markers,
+                                     const std::vector<Card>& cards) {
+  if (std::none_of(markers.begin(), markers.end(), IsLocated)) RefuseMarkers(markers);
+  std::string seen, names;
+  for (const SeenMarker& marker : markers)
+    seen += (seen.empty() ? "" : ", ") + std::to_string(marker.id);
+  for (const Card& card : cards) names += (names.empty() ? "" : " or ") + card.name;
+  throw Refused(Reason::kNoScale,
+                "scale: markers are seen (" + seen + "), but none of the card " + names +
+                    "; if they are loose ones, give --marker-mm; if they are another card's, "
+                    "--card FILE");
 }
 
 SheetProblem LooseProblem(const std::vector<SeenMarker>& markers,
@@ -252,7 +279,7 @@ ScaleResult ScaleFromCard(const Photo& photo, const ScaleOptions& options) {
   const std::vector<SeenMarker> markers =
       FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
   const std::optional<Card> card = CardInView(cards, markers);
-  if (!card) RefuseMarkers(markers);
+  if (!card) RefuseOtherMarkers(markers, cards);
   return SolveCard(photo, options, *card, markers);
 }
 

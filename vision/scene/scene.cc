@@ -129,6 +129,20 @@ Scene SceneFrom(const Candidate& found) {
   return scene;
 }
 
+// Hints are obeyed; where nothing fits them, they may be at fault as well as the picture.
+std::string WhatHintsSay(const StoredHints& hints) {
+  std::string names;
+  const auto add = [&](bool given, const char* name) {
+    if (given) names += (names.empty() ? "" : ", ") + std::string(name);
+  };
+  add(hints.roi_px.has_value(), "--roi");
+  add(hints.pivot_px.has_value(), "--pivot");
+  add(hints.tips_direction.has_value(), "--tips-toward");
+  return names.empty() ? "" : "; or it is otherwise than said: check " + names;
+}
+
+const char* WhereLooked(const StoredHints& hints) { return hints.roi_px ? "--roi" : "the picture"; }
+
 void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
   if (!ShowsWholeBlades(ladder) && ladder.closed) {
     throw Refused(
@@ -144,12 +158,14 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
     throw Refused(
         Reason::kNotScissors,
         "scene: no pair of open blades found" + nearest +
-            "; show the scissors open and whole on a plain ground, or point at them with --roi");
+            "; show the scissors open and whole on a plain ground, or point at them with --roi" +
+            WhatHintsSay(hints));
   }
   const BladePair& pair = ladder.best.pair;
   if (pair.first.cut_off || pair.second.cut_off) {
     throw Refused(Reason::kBladesNotVisible,
-                  "scene: a blade runs out of the picture; both tips must be inside the frame");
+                  std::string("scene: a blade runs out of ") + WhereLooked(hints) +
+                      "; both tips must be inside it");
   }
   // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71.
   constexpr double kTapers = 0.85;
@@ -162,7 +178,8 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
   }
   if (ladder.several) {
     throw Refused(Reason::kSeveralScissors,
-                  "scene: more than one pair of scissors; choose one with --roi X,Y,W,H");
+                  std::string("scene: more than one pair of scissors in ") + WhereLooked(hints) +
+                      "; choose one with a " + (hints.roi_px ? "smaller " : "") + "--roi X,Y,W,H");
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "vision/hints.h"
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/stage_log.h"
@@ -40,13 +41,6 @@ struct Scene {
 
   // Whether another silhouette may be as likely.
   [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined || second_look; }
-};
-
-// Hints in stored pixels.
-struct StoredHints {
-  std::optional<cv::Rect> roi_px;
-  std::optional<Eigen::Vector2d> pivot_px;
-  std::optional<Eigen::Vector2d> tips_direction;  // unit
 };
 
 struct LadderResult;

@@ -194,8 +194,9 @@ LadderResult ClimbLadder(const Photo& photo,
   const SceneView view(photo, markers, hints);
   if (std::min(view.window.area_px.width, view.window.area_px.height) < kSmallestSide) {
     throw Refused(Reason::kTooSmall,
-                  "scene: the picture is less than " + std::to_string(kSmallestSide) +
-                      " px high or wide; use a larger photograph");
+                  std::string("scene: ") + (hints.roi_px ? "--roi" : "the picture") +
+                      " is less than " + std::to_string(kSmallestSide) + " px high or wide; " +
+                      (hints.roi_px ? "give a larger one" : "use a larger photograph"));
   }
   Rung all;
   LadderResult result = Climb(view, &all, log);

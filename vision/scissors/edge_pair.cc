@@ -263,11 +263,11 @@ class BladeLocator {
 
   // An edge along the border of a shadow that its blade casts is looked for where that begins. The
   // other blade's outer side, which faces the same way, casts the same one.
-  void LeaveCastShadow(bool upper_on_left, BladeEdges* edges) const {
-    const auto of_upper = MarginOf(edges->upper, upper_on_left);
-    const auto of_lower = MarginOf(edges->lower, !upper_on_left);
+  void LeaveCastShadow(BladeEdges* edges) const {
+    const auto of_upper = MarginOf(edges->upper, true);
+    const auto of_lower = MarginOf(edges->lower, false);
     if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
-    const bool left = of_upper ? upper_on_left : !upper_on_left;
+    const bool left = of_upper.has_value();
     const auto outer = LocateOuterSide(!left);
     const auto of_outer = outer ? MarginOf(*outer, !left) : std::nullopt;
     const Margin& shadow = of_upper ? *of_upper : *of_lower;
@@ -279,7 +279,7 @@ class BladeLocator {
   // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
   // and bevels' lines too. In large photographs, whose colours take longer to decode than all else
   // takes, only where grey leaves a doubt, or shadows might pass for blades unseen.
-  void SettleByColour(bool upper_on_left, BladeEdges* edges) {
+  void SettleByColour(BladeEdges* edges) {
     constexpr double kVaguePx = 0.5, kLarge = 3e6;  // px
     const auto doubtful = [&](const LocatedEdge& edge) {
       return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
@@ -291,9 +291,9 @@ class BladeLocator {
     const BladeEdges found = *edges;
     ParallelFor(2, [&](int blade) {
       if (blade == 0) {
-        LeaveLightAlone(colours, found.lower, upper_on_left, &edges->upper);
+        LeaveLightAlone(colours, found.lower, true, &edges->upper);
       } else {
-        LeaveLightAlone(colours, found.upper, !upper_on_left, &edges->lower);
+        LeaveLightAlone(colours, found.upper, false, &edges->lower);
       }
     });
   }
@@ -511,27 +511,22 @@ class BladeLocator {
 
 }  // namespace
 
-BladeEdges LocateBlades(const Photo& photo,
-                        const ScaleResult& scale,
-                        const Scene& scene,
-                        bool upper_on_left) {
+BladeEdges LocateBlades(const Photo& photo, const ScaleResult& scale, const Scene& scene) {
   BladeLocator locator(photo, scale, scene);
   BladeEdges edges;
   ParallelFor(2, [&](int blade) {
     if (blade == 0) {
-      edges.upper = locator.Locate(upper_on_left);
+      edges.upper = locator.Locate(true);
     } else {
-      edges.lower = locator.LocateOrTrace(!upper_on_left);
+      edges.lower = locator.LocateOrTrace(false);
     }
   });
-  locator.LeaveOtherBlade(upper_on_left ? &edges.upper : &edges.lower,
-                          upper_on_left ? &edges.lower : &edges.upper);
-  locator.LeaveShadows(upper_on_left ? &edges.upper : &edges.lower,
-                       upper_on_left ? &edges.lower : &edges.upper);
-  edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), upper_on_left);
-  edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), !upper_on_left);
-  locator.SettleByColour(upper_on_left, &edges);
-  locator.LeaveCastShadow(upper_on_left, &edges);
+  locator.LeaveOtherBlade(&edges.upper, &edges.lower);
+  locator.LeaveShadows(&edges.upper, &edges.lower);
+  edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), true);
+  edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), false);
+  locator.SettleByColour(&edges);
+  locator.LeaveCastShadow(&edges);
   return edges;
 }
 

@@ -11,7 +11,8 @@
 
 namespace bladecurve {
 
-// The cutting edges of both blades, stored pixels.
+// The cutting edges of both blades, stored pixels. The upper blade is the left one, seen from the
+// pivot towards the tips.
 struct BladeEdges {
   LocatedEdge upper, lower;
 };
@@ -23,8 +24,7 @@ struct BladeEdges {
 // does for the upper edge.
 [[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
                                       const ScaleResult& scale,
-                                      const Scene& scene,
-                                      bool upper_on_left);
+                                      const Scene& scene);
 
 // The cutting edge along `guess`, in grey or else in colours. Throws Refused as LocateEdge does.
 [[nodiscard]] LocatedEdge LocateBladeAlong(const Photo& photo,

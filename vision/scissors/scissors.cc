@@ -21,14 +21,13 @@ namespace bladecurve {
 namespace {
 
 Blades LocateAndTrim(const ScissorsView& view, const Scene& scene, StageLog* log) {
-  const bool upper_on_left = view.upper_on_left;
-  BladeEdges edges = LocateBlades(view.photo, view.scale, scene, upper_on_left);
+  BladeEdges edges = LocateBlades(view.photo, view.scale, scene);
   if (log->wants_pictures()) {
     log->Picture("edge-upper", DrawEdge(view.photo.grey(), edges.upper));
     log->Picture("edge-lower", DrawEdge(view.photo.grey(), edges.lower));
   }
-  Blades blades{{upper_on_left, std::move(edges.upper), {}, {}, {}},
-                {!upper_on_left, std::move(edges.lower), {}, {}, {}},
+  Blades blades{{true, std::move(edges.upper), {}, {}, {}},
+                {false, std::move(edges.lower), {}, {}, {}},
                 false};
   TrimToFree(view.photo, scene, &blades.upper);
   TrimToFree(view.photo, scene, &blades.lower);

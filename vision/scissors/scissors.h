@@ -23,7 +23,6 @@ struct ScissorsView {
   const Photo& photo;
   const ScaleResult& scale;
   const StoredHints& hints;
-  bool upper_on_left = true;  // which blade is the upper one
 };
 
 // Edges, ends and pivot. Where the likeliest scene proves to be no scissors, what another mask
