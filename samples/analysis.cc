@@ -37,6 +37,8 @@ std::vector<PhotoMeasurement> MeasureAll(const std::vector<std::filesystem::path
   ParallelFor(static_cast<int>(photos.size()), settings.num_threads, [&](int index) {
     const auto i = static_cast<std::size_t>(index);
     MeasureOptions options = settings.measure;
+    if (options.debug_dir && photos.size() > 1)
+      *options.debug_dir /= fmt::format("{}_{}", index + 1, photos[i].stem().string());
     if (!settings.theta_rad.empty()) options.hints.theta_rad = settings.theta_rad[i];
     measured[i] = Measure(photos[i], options);
   });

@@ -252,7 +252,10 @@ void AddFitFlags(CLI::App& command, AnalysisFlags* flags) {
 void AddRunFlags(CLI::App& command, AnalysisFlags* flags) {
   command.add_option("--plan", flags->plan, "auto: leave out what a scene does not need; full")
       ->check(CLI::IsMember({"auto", "full"}));
-  command.add_option("--debug", flags->debug, "Write a picture of every stage into this folder");
+  command.add_option("--debug",
+                     flags->debug,
+                     "Write a picture of every stage into this folder; of several photographs into "
+                     "a folder of it each");
   command.add_option(
       "--threads", flags->threads, "How many photographs, or parts of one, at a time");
 }

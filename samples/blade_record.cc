@@ -92,6 +92,10 @@ Json PhotoRecord(const Analysis& analysis, std::size_t index, bool times) {
                  {"lower_end_px", PointRecord(photo.lower_end_px)},
                  {"warnings", photo.warnings},
                  {"plan", PlanRecord(plan, times)}};
+  if (photo.theta_source == "given") {
+    record["seen_theta_rad"] = photo.seen_theta_rad;
+    record["seen_theta_sigma_rad"] = photo.seen_theta_sigma_rad;
+  }
   if (times) record["ms_total"] = photo.ms_total + plan.back().ms;
   return record;
 }
@@ -140,20 +144,19 @@ std::string Status(const Analysis& analysis) {
 
 std::string BladeRecordText(const Analysis& analysis, const RecordOptions& options) {
   const FamilyFit& fit = analysis.fit.recommended;
-  Json record = {
-      {"format", "bladecurve/1"},
-      {"name", options.name},
-      {"status", Status(analysis)},
-      {"warnings", Warnings(analysis)},
-      {"notes", analysis.fit.notes},
-      {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
-      {"curve", CurveRecord(fit.curve)},
-      {"alternatives", AlternativesRecord(analysis.fit)},
-      {"domain", PlainFile(fit.curve).at("domain")},
-      {"covariance",
-       {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
-      {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
-      {"photos", PhotosRecord(analysis, options.times)}};
+  Json record = {{"format", "bladecurve/1"},
+                 {"name", options.name},
+                 {"status", Status(analysis)},
+                 {"warnings", Warnings(analysis)},
+                 {"notes", analysis.fit.notes},
+                 {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
+                 {"curve", CurveRecord(fit.curve)},
+                 {"alternatives", AlternativesRecord(analysis.fit)},
+                 {"domain", PlainFile(fit.curve).at("domain")},
+                 {"covariance",
+                  {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
+                 {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
+                 {"photos", PhotosRecord(analysis, options.times)}};
   if (analysis.photos.front().scale_source == kPixelsSource) record["units"] = "px";
   return LineAKey(record);
 }

@@ -13,6 +13,7 @@
 
 #include "model/blade_file.h"
 #include "samples/blade_record.h"
+#include "samples/doubts.h"
 #include "samples/fitted_photo.h"
 
 namespace bladecurve {
@@ -53,9 +54,33 @@ std::string CoefficientLines(const FamilyFit& fit) {
   return lines;
 }
 
+std::string DoubtLines(const Analysis& analysis) {
+  std::string lines;
+  for (const std::string& code : Warnings(analysis))
+    lines += fmt::format("  doubt    {}: {}\n", code, MeaningOfDoubt(code));
+  return lines;
+}
+
 std::string CurveLines(const FamilyFit& fit) {
   const auto form = std::visit([](const auto& shape) { return Form(shape); }, fit.curve.shape());
   return fmt::format("  curve    {}\n", form) + CoefficientLines(fit);
+}
+
+// Where it was given, what the photograph says as well.
+std::string ThetaSource(const PhotoMeasurement& photo) {
+  if (photo.theta_source != "given") return photo.theta_source;
+  return fmt::format("given; the distal ends say {:.3f} +- {:.3f}",
+                     photo.seen_theta_rad * kDegPerRad,
+                     photo.seen_theta_sigma_rad * kDegPerRad);
+}
+
+// A scale that was given is what it is.
+std::string ScaleText(const FittedPhoto& fitted, const PhotoMeasurement& photo, const char* unit) {
+  constexpr double kRounding = 1e-9;
+  const double sigma = photo.mm_per_px_sigma;
+  const std::string error =
+      sigma > kRounding * fitted.mm_per_px ? fmt::format(" +- {:.2g}", sigma) : "";
+  return fmt::format("{:.6g}{} {}/px ({})", fitted.mm_per_px, error, unit, photo.scale_source);
 }
 
 std::string PhotoLines(const PhotoMeasurement& photo, const FittedPose& pose, const char* unit) {
@@ -64,13 +89,13 @@ std::string PhotoLines(const PhotoMeasurement& photo, const FittedPose& pose, co
          fmt::format("    theta  {:.3f} +- {:.3f} deg ({})\n",
                      fitted.theta_rad * kDegPerRad,
                      fitted.theta_sigma_rad * kDegPerRad,
-                     photo.theta_source) +
+                     ThetaSource(photo)) +
          fmt::format("    pivot  {:.2f}, {:.2f} px +- {:.2g} ({})\n",
                      fitted.pivot_px.x(),
                      fitted.pivot_px.y(),
                      fitted.pivot_sigma_px,
                      photo.pivot_source) +
-         fmt::format("    scale  {:.6g} {}/px ({})\n", fitted.mm_per_px, unit, photo.scale_source);
+         fmt::format("    scale  {}\n", ScaleText(fitted, photo, unit));
 }
 
 const char* OtherFamily(const BladeFit& fit) {
@@ -114,7 +139,7 @@ std::string StatusLine(const Analysis& analysis, const std::string& name) {
 std::string FitSummaryText(const Analysis& analysis, bool pixels) {
   const char* unit = pixels ? "px" : "mm";
   const FamilyFit& fit = analysis.fit.recommended;
-  std::string text = CurveLines(fit);
+  std::string text = DoubtLines(analysis) + CurveLines(fit);
   text += fmt::format(
       "  misfit   {:.2g} {} rms, {} of {} points\n", fit.rms_mm, unit, fit.inliers, fit.points);
   text += FamilyLines(analysis.fit, unit);

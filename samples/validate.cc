@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
 #include <stdexcept>
@@ -32,11 +33,19 @@ namespace fs = std::filesystem;
 struct ValidateCommand {
   int scenes = 50;
   std::uint64_t seed = 1;
-  Difficulty difficulty = Difficulty::kStandard;
-  std::string blade, csv, plot;
+  std::string difficulty = "standard", blade, csv, plot;
   int threads = 1;
   bool quiet = false, no_times = false;
 };
+
+const std::map<std::string, Difficulty>& Difficulties() {
+  static const std::map<std::string, Difficulty> difficulties = {
+      {"clean", Difficulty::kClean},
+      {"standard", Difficulty::kStandard},
+      {"hard", Difficulty::kHard},
+      {"sun", Difficulty::kSun}};
+  return difficulties;
+}
 
 // On a terminal only.
 void ShowProgress(int done, int of) {
@@ -48,13 +57,22 @@ std::vector<ValidationRow> RunScenes(const ValidateCommand& command) {
   const ScratchFolder folder("validate");
   std::vector<ValidationRow> rows(static_cast<std::size_t>(command.scenes));
   std::atomic<int> done = 0;
+  const Difficulty difficulty = Difficulties().at(command.difficulty);
   ParallelFor(command.scenes, command.threads, [&](int number) {
     rows[static_cast<std::size_t>(number)] =
-        ValidateScene(MakeValidationScene(number, command.seed, command.difficulty), folder.path());
+        ValidateScene(MakeValidationScene(number, command.seed, difficulty), folder.path());
     const int so_far = ++done;
     if (!command.quiet) ShowProgress(so_far, command.scenes);
   });
   return rows;
+}
+
+// Before scenes are rendered for minutes whose results nobody could read.
+void RequirePossible(const ValidateCommand& command) {
+  if (!command.plot.empty() && fs::path(command.plot).extension() != ".svg")
+    throw std::invalid_argument("--plot: " + command.plot + " does not end in .svg");
+  if (!command.csv.empty() && command.csv != "-") RequireWritable(command.csv);
+  if (!command.plot.empty()) RequireWritable(command.plot);
 }
 
 int RunValidate(const ValidateCommand& command) {
@@ -62,6 +80,7 @@ int RunValidate(const ValidateCommand& command) {
     std::cout << CompareBladeWithPhotographs(command.blade);
     return kExitOk;
   }
+  RequirePossible(command);
   const std::vector<ValidationRow> rows = RunScenes(command);
   if (command.csv == "-") {
     std::cout << ValidationCsv(rows, !command.no_times);
@@ -85,13 +104,14 @@ void AddValidate(CLI::App& app, int* exit_code) {
   sub->add_option("--scenes", command->scenes, "How many; every tenth one must be refused")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  sub->add_option("--seed", command->seed, "Of the series of scenes")->capture_default_str();
-  const std::map<std::string, Difficulty> names = {{"clean", Difficulty::kClean},
-                                                   {"standard", Difficulty::kStandard},
-                                                   {"hard", Difficulty::kHard},
-                                                   {"sun", Difficulty::kSun}};
-  sub->add_option("--difficulty", command->difficulty, "Which range scenes are drawn from")
-      ->transform(CLI::CheckedTransformer(names));
+  sub->add_option("--seed", command->seed, "Of the series of scenes")
+      ->check(CLI::Range(std::int64_t{0}, std::numeric_limits<std::int64_t>::max()))
+      ->capture_default_str();
+  sub->add_option("--difficulty",
+                  command->difficulty,
+                  "Which range scenes are drawn from: clean, standard, hard or sun")
+      ->check(CLI::IsMember({"clean", "standard", "hard", "sun"}))
+      ->capture_default_str();
   sub->add_option("--csv", command->csv, "One line a scene; '-': standard output, no table");
   sub->add_option("--plot", command->plot, "Work-precision plot, FILE.svg");
   sub->add_option("--threads", command->threads, "Scenes at a time; more disturb the times")

@@ -58,8 +58,16 @@ AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& fil
   }
   settings.measure.scale.marker_mm = spec.markers.front().size_mm;
   settings.measure.scale.plane_height_mm = spec.edge_height_mm + scene.height_error_mm;
-  settings.measure.scale.camera = files.camera();
+  if (scene.camera_known) settings.measure.scale.camera = files.camera();
   return settings;
+}
+
+// The folder has another name in each run.
+std::string WithoutFolder(std::string text, const fs::path& folder) {
+  const std::string prefix = folder.string() + "/";
+  for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
+    text.erase(at, prefix.size());
+  return text;
 }
 
 std::vector<std::string> WarningsOf(const Analysis& analysis) {
@@ -85,7 +93,7 @@ ValidationRow ValidateScene(const ValidationScene& scene, const fs::path& folder
     row.errors = CompareWithTruth(analysis, photo.truth);
   } catch (const PhotoRefused& refusal) {
     row.outcome = std::string(ReasonCode(refusal.reason()));
-    row.detail = refusal.what();
+    row.detail = WithoutFolder(refusal.what(), folder);
   }
   return row;
 }

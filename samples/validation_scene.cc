@@ -52,6 +52,10 @@ void MisstateKnowledge(ValidationScene* scene) {
   scene->k1_error = kCalibratedK1Sigma * DrawNormal(&random);
   scene->height_error_mm = kGivenHeightSigmaMm * DrawNormal(&random);
   VaryScrew(&random, &scene->spec.scissors);
+  // Photographs that were sent to and fro have lost their EXIF data, and few cameras are
+  // calibrated.
+  constexpr std::uint64_t kOneIn = 4;
+  scene->camera_known = random() % kOneIn != 0;
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct ValidationScene {
   // takes them to be good for. So are, in `spec`, the height of the screw's head and its slot's
   // place.
   double focal_error = 0, k1_error = 0, height_error_mm = 0;
+  bool camera_known = true;  // whether the program is given that calibration
 };
 
 // Scene `number` of the series that `seed` begins. Every tenth must be refused: closed scissors, a

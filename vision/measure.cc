@@ -13,6 +13,8 @@
 #include "vision/blade_frame.h"
 #include "vision/parallel.h"
 #include "vision/pivot/pivot.h"
+#include "vision/refused.h"
+#include "vision/scale/scale_debug.h"
 #include "vision/scene/scene.h"
 #include "vision/scissors/located_blade.h"
 #include "vision/scissors/opening.h"
@@ -88,6 +90,13 @@ void FillPixels(const Photo& photo,
   result->lower_end_px = photo.DisplayedFromStored(blades.lower.end.point_px);
 }
 
+// Whether the scale was hardly meant: of a factor wrong by 2 some scissors show it, of 25.4 all.
+bool IsUnusual(const EdgePoints& edges, const PlaneMap& map) {
+  constexpr double kShortestMm = 5, kLongestMm = 160;  // micro scissors, tailor's shears
+  const double length_mm = edges.upper_end.point_mm.norm();
+  return map.source() != kPixelsSource && (length_mm < kShortestMm || length_mm > kLongestMm);
+}
+
 void FillTheta(const Opening& opening,
                const std::optional<double>& given_rad,
                PhotoMeasurement* result) {
@@ -95,9 +104,43 @@ void FillTheta(const Opening& opening,
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   result->theta_sigma_rad = given_rad ? kUnknown : opening.sigma_rad;
   result->theta_source = given_rad ? "given" : "distal-ends";
+  result->seen_theta_rad = opening.theta_rad;
+  result->seen_theta_sigma_rad = opening.sigma_rad;
   result->edges.theta_rad = result->theta_rad;
   result->edges.theta_sigma_rad = result->theta_sigma_rad;
   result->edges.theta_given = given_rad.has_value();
+}
+
+ScaleResult FindScaleInView(const Photo& photo, const ScaleOptions& options, StageLog* log) {
+  try {
+    ScaleResult scale = FindScale(photo, options);
+    if (log->wants_pictures()) log->Picture("scale", DrawMarkers(photo.grey(), scale.markers));
+    return scale;
+  } catch (const Refused&) {
+    if (log->wants_pictures()) {
+      const std::vector<SeenMarker> markers = FindMarkers(photo.grey(), SrgbToneCurve());
+      log->Picture("scale", DrawMarkers(photo.grey(), markers));
+    }
+    throw;
+  }
+}
+
+// Prints that are seen but give no scale are no part of the scene either; they are looked for where
+// nothing else explains what is seen.
+void FindScene(const Photo& photo,
+               const StoredHints& hints,
+               ScaleResult* scale,
+               std::optional<SceneFinder>* finder,
+               StageLog* log) {
+  try {
+    finder->emplace(photo, scale->markers, hints, log);
+  } catch (const Refused&) {
+    if (!scale->markers.empty()) throw;
+    scale->markers = FindMarkers(photo.grey(), scale->tone);
+    if (scale->markers.empty()) throw;
+    log->Ran("markers", "print that gives no scale is left out");
+    finder->emplace(photo, scale->markers, hints, log);
+  }
 }
 
 }  // namespace
@@ -106,12 +149,12 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   StageLog log(options.debug_dir);
   Photo photo = Photo::Load(path);
   log.Ran("decode", "grey");
-  const ScaleResult scale = FindScale(photo, options.scale);
+  ScaleResult scale = FindScaleInView(photo, options.scale, &log);
   log.Ran("scale", scale.map ? scale.map->source() : "waits for the blades: --length-mm");
   const StoredHints hints = InStored(photo, options.hints);
   std::optional<SceneFinder> finder;
   std::string sha256;
-  ParallelAside([&] { finder.emplace(photo, scale.markers, hints, &log); },
+  ParallelAside([&] { FindScene(photo, hints, &scale, &finder, &log); },
                 [&] { sha256 = photo.Sha256(); });  // where finding leaves a thread idle
   const Scissors scissors = LocateScissors({photo, scale, hints}, &*finder, &log);
   const Pivot& pivot = scissors.pivot;
@@ -133,6 +176,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
   result.warnings = WarningsOf(scissors.scene, scale, map, pivot, blades);
+  if (IsUnusual(result.edges, map)) result.warnings.emplace_back("size_unusual");
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
   result.ms_total = log.total_ms();

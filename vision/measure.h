@@ -37,7 +37,8 @@ struct PhotoMeasurement {
   Eigen::Vector2d axis_px;                    // unit direction of +x in the image, at the pivot
   double theta_rad = 0, theta_sigma_rad = 0;  // the sigma of a given one is NaN: nobody said
   std::string theta_source;                   // "distal-ends", "given"
-  double mm_per_px = 0, mm_per_px_sigma = 0;  // along the axis, at the pivot
+  double seen_theta_rad = 0, seen_theta_sigma_rad = 0;  // by the distal ends, given or not
+  double mm_per_px = 0, mm_per_px_sigma = 0;            // along the axis, at the pivot
   std::string scale_source;
   std::vector<Eigen::Vector2d> upper_edge_px, lower_edge_px;
   std::vector<Eigen::Vector2d> upper_edge_mm;  // in the frame of `edges`

@@ -2,15 +2,42 @@
 // SPDX-License-Identifier: MIT
 #include "vision/stage_log.h"
 
+#include <regex>
+#include <stdexcept>
+#include <system_error>
 #include <utility>
 
 #include "vision/photo/png_writer.h"
 
 namespace bladecurve {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+// Pictures of an earlier run would mix with this one's.
+bool IsStagePicture(const fs::path& file) {
+  static const std::regex kName("[0-9][0-9]_[a-z-]+\\.png");
+  return std::regex_match(file.filename().string(), kName);
+}
+
+void PrepareFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw std::runtime_error("debug: cannot make the folder " + folder.string() + ": " +
+                             (error ? error.message() : "it is a file") + "; name another one");
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (IsStagePicture(entry.path())) fs::remove(entry.path());
+  }
+}
+
+}  // namespace
+
 StageLog::StageLog(std::optional<std::filesystem::path> debug_dir)
     : debug_dir_(std::move(debug_dir)), start_(Clock::now()), last_(start_) {
-  if (debug_dir_) std::filesystem::create_directories(*debug_dir_);
+  if (debug_dir_) PrepareFolder(*debug_dir_);
 }
 
 void StageLog::Ran(const std::string& stage, const std::string& why) {

@@ -22,6 +22,7 @@ struct StageRecord {
 // Collects what each stage did and how long it took, and, if asked for, a picture of it.
 class StageLog {
  public:
+  // Makes the folder, and clears it of pictures of an earlier run. Throws std::runtime_error.
   explicit StageLog(std::optional<std::filesystem::path> debug_dir = std::nullopt);
 
   void Ran(const std::string& stage,

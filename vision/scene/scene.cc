@@ -144,7 +144,7 @@ std::string WhatHintsSay(const StoredHints& hints) {
 const char* WhereLooked(const StoredHints& hints) { return hints.roi_px ? "--roi" : "the picture"; }
 
 void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
-  if (!ShowsWholeBlades(ladder) && ladder.closed) {
+  if (ladder.best.pair.quality < kAcceptedQuality && ladder.closed) {
     throw Refused(
         Reason::kClosed,
         "scene: the scissors are closed, or the gap between the blades looks like the "
