@@ -273,7 +273,7 @@ AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags) {
   AnalysisSettings settings;
   settings.measure.scale = ScaleFromFlags(flags);
   settings.measure.hints = HintsFromFlags(flags);
-  settings.measure.full_plan = flags.plan == "full";
+  if (flags.plan == "full") settings.measure.plan = Plan::kFull;
   if (flags.debug) settings.measure.debug_dir = *flags.debug;
   settings.theta_rad = ThetaFromFlag(flags.theta_deg);
   settings.fit = FitFromFlags(flags);

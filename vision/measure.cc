@@ -146,7 +146,7 @@ void FindScene(const Photo& photo,
 }  // namespace
 
 PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOptions& options) {
-  StageLog log(options.debug_dir);
+  StageLog log(options.debug_dir, options.plan);
   Photo photo = Photo::Load(path);
   log.Ran("decode", "grey");
   ScaleResult scale = FindScaleInView(photo, options.scale, &log);

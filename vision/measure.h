@@ -22,7 +22,7 @@ namespace bladecurve {
 struct MeasureOptions {
   ScaleOptions scale;
   SceneHints hints;
-  bool full_plan = false;                          // --plan full: run every stage, needed or not
+  Plan plan = Plan::kAsNeeded;                     // --plan
   bool keep_photo = false;                         // for pictures of the result
   std::optional<std::filesystem::path> debug_dir;  // pictures of every stage
 };

@@ -35,8 +35,8 @@ void PrepareFolder(const fs::path& folder) {
 
 }  // namespace
 
-StageLog::StageLog(std::optional<std::filesystem::path> debug_dir)
-    : debug_dir_(std::move(debug_dir)), start_(Clock::now()), last_(start_) {
+StageLog::StageLog(std::optional<std::filesystem::path> debug_dir, Plan plan)
+    : debug_dir_(std::move(debug_dir)), plan_(plan), start_(Clock::now()), last_(start_) {
   if (debug_dir_) PrepareFolder(*debug_dir_);
 }
 

@@ -19,11 +19,18 @@ struct StageRecord {
   double ms = 0;
 };
 
-// Collects what each stage did and how long it took, and, if asked for, a picture of it.
+enum class Plan { kAsNeeded, kFull };  // leave out what a scene does not need, or nothing
+
+// The plan of one measurement: whether stages may be left out. Collects what each did and how long
+// it took, and, if asked for, a picture of it.
 class StageLog {
  public:
   // Makes the folder, and clears it of pictures of an earlier run. Throws std::runtime_error.
-  explicit StageLog(std::optional<std::filesystem::path> debug_dir = std::nullopt);
+  explicit StageLog(std::optional<std::filesystem::path> debug_dir = std::nullopt,
+                    Plan plan = Plan::kAsNeeded);
+
+  [[nodiscard]] Plan plan() const { return plan_; }
+  [[nodiscard]] bool runs_all() const { return plan_ == Plan::kFull; }
 
   void Ran(const std::string& stage,
            const std::string& why);  // the time since the last record is its time
@@ -39,6 +46,7 @@ class StageLog {
  private:
   using Clock = std::chrono::steady_clock;
   std::optional<std::filesystem::path> debug_dir_;
+  Plan plan_;
   int pictures_ = 0;
   std::vector<StageRecord> records_;
   Clock::time_point start_;

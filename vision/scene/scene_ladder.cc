@@ -135,12 +135,16 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
   return result;
 }
 
+const char* WhyRun(const StageLog& log, const char* need) {
+  return log.runs_all() ? "everything is to run" : need;
+}
+
 // Fills in what all rungs saw.
 LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
   LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
   log->Ran("scene-grey", "the cheapest look");
   const bool grey_suffices = Consistent(result);
-  if (grey_suffices && !ShowsAnother(result.best)) {
+  if (grey_suffices && !log->runs_all() && !ShowsAnother(result.best)) {
     log->Skipped("scene-colour", "grey gave a consistent scene");
     return result;
   }
@@ -148,26 +152,26 @@ LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
   Consider(ColourRung(view, colour), "rung-colour", all, log);
   const LadderResult in_colour =
       Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", all, log);
-  if (grey_suffices) {
+  if (grey_suffices && !log->runs_all()) {
     log->Ran("scene-colour", "another thing lies beside the scissors");
     result.several = result.several || in_colour.several;
     return result;
   }
   result = in_colour;
-  log->Ran("scene-colour", "grey did not separate the blades");
-  if (Consistent(result)) {
+  log->Ran("scene-colour", WhyRun(*log, "grey did not separate the blades"));
+  if (Consistent(result) && !log->runs_all()) {
     log->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
   const Outlines outlines = OutlinesIn(view);
   result = Consider(FloodRung(view, outlines), "rung-flood", all, log);
-  log->Ran("scene-flood", "no threshold separates the blades");
-  if (ShowsWholeBlades(result)) {
+  log->Ran("scene-flood", WhyRun(*log, "no threshold separates the blades"));
+  if (ShowsWholeBlades(result) && !log->runs_all()) {
     log->Skipped("scene-regions", "the flood left blades dry");
     return result;
   }
   result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
-  log->Ran("scene-regions", "the flood ran into the blades");
+  log->Ran("scene-regions", WhyRun(*log, "the flood ran into the blades"));
   return result;
 }
 

@@ -279,13 +279,14 @@ class BladeLocator {
   // Both edges are compared with where the ground's colour ends: light changes at shadows' borders
   // and bevels' lines too. In large photographs, whose colours take longer to decode than all else
   // takes, only where grey leaves a doubt, or shadows might pass for blades unseen.
-  void SettleByColour(BladeEdges* edges) {
+  void SettleByColour(Plan plan, BladeEdges* edges) {
     constexpr double kVaguePx = 0.5, kLarge = 3e6;  // px
     const auto doubtful = [&](const LocatedEdge& edge) {
       return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
     };
-    if (static_cast<double>(photo_.grey().total()) > kLarge && !doubtful(edges->upper) &&
-        !doubtful(edges->lower) && !ShadowsMightPass(*edges))
+    const bool costly = static_cast<double>(photo_.grey().total()) > kLarge;
+    if (plan == Plan::kAsNeeded && costly && !doubtful(edges->upper) && !doubtful(edges->lower) &&
+        !ShadowsMightPass(*edges))
       return;
     const ReducedColours colours = Reduced();
     const BladeEdges found = *edges;
@@ -511,7 +512,10 @@ class BladeLocator {
 
 }  // namespace
 
-BladeEdges LocateBlades(const Photo& photo, const ScaleResult& scale, const Scene& scene) {
+BladeEdges LocateBlades(const Photo& photo,
+                        const ScaleResult& scale,
+                        const Scene& scene,
+                        Plan plan) {
   BladeLocator locator(photo, scale, scene);
   BladeEdges edges;
   ParallelFor(2, [&](int blade) {
@@ -525,7 +529,7 @@ BladeEdges LocateBlades(const Photo& photo, const ScaleResult& scale, const Scen
   locator.LeaveShadows(&edges.upper, &edges.lower);
   edges.upper = locator.WithBlurOf(edges.lower, std::move(edges.upper), true);
   edges.lower = locator.WithBlurOf(edges.upper, std::move(edges.lower), false);
-  locator.SettleByColour(&edges);
+  locator.SettleByColour(plan, &edges);
   locator.LeaveCastShadow(&edges);
   return edges;
 }

@@ -8,6 +8,7 @@
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/scene/scene.h"
+#include "vision/stage_log.h"
 
 namespace bladecurve {
 
@@ -24,7 +25,8 @@ struct BladeEdges {
 // does for the upper edge.
 [[nodiscard]] BladeEdges LocateBlades(const Photo& photo,
                                       const ScaleResult& scale,
-                                      const Scene& scene);
+                                      const Scene& scene,
+                                      Plan plan = Plan::kAsNeeded);
 
 // The cutting edge along `guess`, in grey or else in colours. Throws Refused as LocateEdge does.
 [[nodiscard]] LocatedEdge LocateBladeAlong(const Photo& photo,

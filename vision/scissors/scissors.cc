@@ -21,7 +21,7 @@ namespace bladecurve {
 namespace {
 
 Blades LocateAndTrim(const ScissorsView& view, const Scene& scene, StageLog* log) {
-  BladeEdges edges = LocateBlades(view.photo, view.scale, scene);
+  BladeEdges edges = LocateBlades(view.photo, view.scale, scene, log->plan());
   if (log->wants_pictures()) {
     log->Picture("edge-upper", DrawEdge(view.photo.grey(), edges.upper));
     log->Picture("edge-lower", DrawEdge(view.photo.grey(), edges.lower));
