@@ -107,20 +107,6 @@ TEST(RefuseContestedHead, LeavesOneAboutWhichEdgesSeenFromAKnownSideMirrorEachOt
   EXPECT_THROW(RefuseContestedHead(pivot, tilt_known), Refused);
 }
 
-TEST(RefuseEdgesShortOfPivot, SpeaksUpWhereOneEdgeDoesNotReachAScrewThatIsSeen) {
-  Pivot pivot = PivotSeen(0.12);  // the edges pass by 0.15 and 0.03
-  EXPECT_NO_THROW(RefuseEdgesShortOfPivot(pivot));
-  pivot.overlap = 0.05;  // by 0.11 and -0.01
-  EXPECT_THROW(RefuseEdgesShortOfPivot(pivot), Refused);
-  pivot.asymmetry *= -1;
-  EXPECT_THROW(RefuseEdgesShortOfPivot(pivot), Refused);
-  pivot.overlap_sigma = 0.02;
-  EXPECT_NO_THROW(RefuseEdgesShortOfPivot(pivot));
-  pivot.overlap_sigma = 0;
-  pivot.source = "hint";
-  EXPECT_NO_THROW(RefuseEdgesShortOfPivot(pivot));
-}
-
 TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMirrorEachOther) {
   Scene plain, doubtful, outlined;
   plain.quality = 0.9;

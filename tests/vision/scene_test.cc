@@ -254,8 +254,8 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   const auto sees_stubs = [&] {
     cv::Mat light;
     mask.convertTo(light, CV_32FC1, 100.0 / 255);
-    const Window window{cv::Rect({}, mask.size()), mask.size()};
-    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+    const cv::Rect whole({}, mask.size());
+    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, whole});
     const Rung seen = SeenIn(mask, like, {}, {});
     return std::any_of(seen.candidates.begin(), seen.candidates.end(), [&](const Candidate& c) {
       return c.pair.first.tip.x() > joint.x;
@@ -286,9 +286,9 @@ TEST(SeenIn, LooksForTheSharpEdgeBesideTheContour) {
     cv::Mat light;
     cv::GaussianBlur(pair, light, {}, blur_px);
     light.convertTo(light, CV_32FC1, 100.0 / 255);
-    const Window window{cv::Rect({}, mask.size()), mask.size()};
+    const cv::Rect whole({}, mask.size());
     Candidate like;
-    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, whole});
     double best = 0;
     for (const Candidate& c : SeenIn(mask, like, {}, {}).candidates)
       best = std::max(best, c.pair.quality);
@@ -534,8 +534,8 @@ Candidate MaskWithTurn(double turn_rad) {
   constexpr double kHalfOpening = 0.25;
   Candidate c;
   const cv::Mat light(100, 100, CV_32FC1);
-  const Window window{cv::Rect({}, light.size()), light.size()};
-  c.at = std::make_shared<const ScaledImage>(ScaledImage{light, window});
+  const cv::Rect whole({}, light.size());
+  c.at = std::make_shared<const ScaledImage>(ScaledImage{light, whole});
   c.pair.quality = 1;
   c.pair.pivot = {0, 0};
   c.pair.first.length = c.pair.second.length = 100;

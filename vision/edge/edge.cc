@@ -29,15 +29,12 @@ constexpr double kMostBroken =
     0.25;  // share of the edge without a break; beyond, two lines were taken for one
 constexpr double kGuessSmoothing = 3;  // px: rounds the corners of the guessed polyline
 
-void Check(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
+void Check(const cv::Mat& grey, const EdgeGuess& guess) {
   if (grey.empty() || grey.type() != CV_8UC1)
     throw std::invalid_argument("edge: grey must be CV_8UC1");
   if (guess.path_px.size() < 2)
     throw std::invalid_argument("edge: path_px needs two points or more");
   if (!(guess.search_px > 0)) throw std::invalid_argument("edge: search_px must be positive");
-  if (!(options.step_px > 0)) throw std::invalid_argument("edge: step_px must be positive");
-  if (!(options.outlier_sigmas > 0))
-    throw std::invalid_argument("edge: outlier_sigmas must be positive");
 }
 
 void RefuseIfTooShort(const EdgePath& path) {
@@ -105,12 +102,10 @@ LocatedEdge FitAlong(const ChosenTransition& chosen, bool blade_on_left, const P
   fit_options.blur_known = options.blur_px.has_value();
   fit_options.most_blur_px = options.most_blur_px;
   fit_options.may_be_softer = options.may_be_softer;
-  fit_options.correct_curvature = options.correct_curvature;
-  fit_options.model_slopes = options.model_background_slope;
   const EdgeFit fit =
       FitEdge(picture.grey, picture.tone, chosen.points, blade_on_left, fit_options);
   RefuseIfUnseen(fit.seen, kLeastPlaced);
-  LocatedEdge edge = PointsFromFit(fit, options);
+  LocatedEdge edge = PointsFromFit(fit);
   edge.overexposed = fit.overexposed;
   const double gap = LongestGap(edge);
   RefuseIfBroken(gap);
@@ -143,8 +138,8 @@ double MedianOf(double LocatedEdgePoint::*number, const std::vector<LocatedEdgeP
   return Median(std::move(numbers));
 }
 
-EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options) {
-  Check(grey, guess, options);
+EdgePath RoughPath(const cv::Mat& grey, const EdgeGuess& guess) {
+  Check(grey, guess);
   EdgePath rough = SmoothPath(guess.path_px, guess.blade_on_left, kGuessSmoothing);
   RefuseIfTooShort(rough);
   return rough;
@@ -188,7 +183,7 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
                        const ToneCurve& tone,
                        const EdgeGuess& guess,
                        const EdgeOptions& options) {
-  const EdgePath rough = RoughPath(grey, guess, options);
+  const EdgePath rough = RoughPath(grey, guess);
   return FitAlong(
       ChooseTransition(grey, rough, guess.search_px), guess.blade_on_left, {grey, tone, options});
 }
@@ -198,7 +193,7 @@ LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
                                const EdgeGuess& guess,
                                Shadow shadow,
                                const EdgeOptions& options) {
-  const EdgePath rough = RoughPath(grey, guess, options);
+  const EdgePath rough = RoughPath(grey, guess);
   const ChosenTransition start = ChooseShadow(grey, rough, guess.search_px, shadow);
   const Picture picture{grey, tone, options};
   // A shadow that ends softly is a slope beside the blade, one that ends sharply another step.

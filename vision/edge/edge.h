@@ -21,11 +21,6 @@ struct EdgeGuess {
 };
 
 struct EdgeOptions {
-  double step_px = 1.0;  // spacing of the points along the edge
-  double outlier_sigmas =
-      4.0;  // a point further from the local edge than this is a glint, nick or dirt
-  bool correct_curvature = true;       // bias -(sigma^2 + 1/12)/(2R)
-  bool model_background_slope = true;  // shadows: grey values may slope on either side
   std::optional<double>
       blur_px;  // known from another edge of the photograph; an overexposed blade hides its own
   // What print beside it shows: a shadow along the edge looks like more blur.

@@ -109,9 +109,7 @@ class Fitter {
     LevelVector precision = LevelVector::Zero();
     if (round.last) precision[kSpread] = kFixed;
     if (!round.bends) precision[kGroundBend] = kFixed;
-    if (!options_.model_slopes)
-      slopes_[kBladeSlope] = slopes_[kGroundSlope] = slopes_[kGroundBend] = kFixed;
-    if (options_.model_slopes && round.settles) slopes_ = SupportedSlopes(precision);
+    if (round.settles) slopes_ = SupportedSlopes(precision);
     windows_.Solve(precision + slopes_);
   }
 
@@ -141,8 +139,7 @@ class Fitter {
     const double variance = TotalBlurVariance(blur_);
     // Blur moves the half-way level of a curved edge towards its centre of curvature: variance /
     // 2R.
-    const double bend =
-        options_.correct_curvature ? 0.5 * path_.curvatures[Index(i)] * variance : 0;
+    const double bend = 0.5 * path_.curvatures[Index(i)] * variance;
     const double shift = bend - offsets_[Index(i)];
     for (int p = band_.begin[Index(i)]; p < band_.begin[Index(i) + 1]; ++p) {
       const double across = band_.pixels[Index(p)].across + shift;

@@ -22,8 +22,6 @@ struct EdgeFitOptions {
   bool blur_known = false;      // blur_px is right and stays
   double most_blur_px = kFree;  // blur is no more
   bool may_be_softer = true;    // unless the blade's side is as soft
-  bool correct_curvature = true;
-  bool model_slopes = true;
 };
 
 struct EdgeFit {

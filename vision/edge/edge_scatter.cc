@@ -22,27 +22,16 @@ constexpr double kTrendPx = 60;  // what bends over less is scatter
 size_t Index(int i) { return static_cast<size_t>(i); }
 
 // Neighbouring slices combined by their information.
-std::vector<LocatedEdgePoint> Combined(const EdgeFit& fit, int slices_per_point) {
+std::vector<LocatedEdgePoint> SeenOf(const EdgeFit& fit) {
   std::vector<LocatedEdgePoint> points;
-  const int count = static_cast<int>(fit.slices.size());
-  for (int first = 0; first < count; first += slices_per_point) {
-    const int last = std::min(first + slices_per_point, count);
-    double information = 0, offset = 0, contrast = 0;
-    for (int k = first; k < last; ++k) {
-      const EdgeSlice& slice = fit.slices[Index(k)];
-      if (!std::isfinite(slice.sigma_px)) continue;
-      const double weight = 1 / (slice.sigma_px * slice.sigma_px);
-      information += weight;
-      offset += weight * slice.offset_px;
-      contrast += weight * slice.contrast;
-    }
-    if (information <= 0) continue;
-    const size_t middle = Index(fit.slices[Index((first + last - 1) / 2)].sample);
+  for (const EdgeSlice& slice : fit.slices) {
+    if (!std::isfinite(slice.sigma_px)) continue;
+    const size_t sample = Index(slice.sample);
     LocatedEdgePoint point;
-    point.normal = fit.path.normals[middle];
-    point.point_px = fit.path.points[middle] + offset / information * point.normal;
-    point.sigma_px = 1 / std::sqrt(information);
-    point.contrast = contrast / information;
+    point.normal = fit.path.normals[sample];
+    point.point_px = fit.path.points[sample] + slice.offset_px * point.normal;
+    point.sigma_px = slice.sigma_px;
+    point.contrast = slice.contrast;
     points.push_back(point);
   }
   return points;
@@ -115,18 +104,17 @@ void SmoothNoisyTrend(double spacing_px, std::vector<LocatedEdgePoint>& points) 
 
 }  // namespace
 
-LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
+LocatedEdge PointsFromFit(const EdgeFit& fit) {
   if (fit.blur_px > kMostBlur) {
     throw Refused(Reason::kBlurred,
                   "edge: blurred over " + std::to_string(std::lround(fit.blur_px)) +
                       " px; focus on the blades or hold the camera still");
   }
-  constexpr int kPasses = 3;  // without the worst outliers the next stand out
-  const int slices_per_point =
-      std::max(1, static_cast<int>(std::lround(options.step_px / fit.spacing)));
-  const int spacing_px = slices_per_point * fit.spacing;
+  constexpr int kPasses = 3;          // without the worst outliers the next stand out
+  constexpr double kStraySigmas = 4;  // further off the local edge lie glints, nicks and dirt
+  const int spacing_px = fit.spacing;
   LocatedEdge edge;
-  edge.points = Combined(fit, slices_per_point);
+  edge.points = SeenOf(fit);
   RejectStrays(edge.points);
   std::vector<double> scatter;
   double excess = 1;
@@ -134,7 +122,7 @@ LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options) {
     scatter = Detrend(edge.points, spacing_px);
     excess = ExcessOf(scatter);
     for (size_t i = 0; i < scatter.size(); ++i) {
-      edge.points[i].inlier &= std::abs(scatter[i]) <= options.outlier_sigmas * excess;
+      edge.points[i].inlier &= std::abs(scatter[i]) <= kStraySigmas * excess;
     }
   }
   if (RejectDetachedEnds(edge.points)) scatter = Detrend(edge.points, spacing_px);

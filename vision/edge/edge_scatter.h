@@ -7,9 +7,9 @@
 
 namespace bladecurve {
 
-// Points of an edge from its slices: combined to the wanted spacing, their sigma enlarged to the
+// Points of an edge from its slices, one each: their sigma enlarged to the
 // scatter they show, outliers marked, the correlation of neighbours measured. Throws
 // Refused{kBlurred}.
-[[nodiscard]] LocatedEdge PointsFromFit(const EdgeFit& fit, const EdgeOptions& options);
+[[nodiscard]] LocatedEdge PointsFromFit(const EdgeFit& fit);
 
 }  // namespace bladecurve

@@ -55,8 +55,6 @@ struct ScaleResult {
   std::optional<SheetSolution> sheet;  // where markers say how the camera stands over it
   double plane_height_mm = 0;          // of the map's plane over the sheet
   std::vector<SeenMarker> markers;
-  // Other print on a card (check bar, text), in the stored picture: no part of the scene.
-  std::vector<std::array<Eigen::Vector2d, 4>> print_px;
   ToneCurve tone;  // sRGB, with what is uncertain about it
 };
 

@@ -232,19 +232,6 @@ std::vector<SeenMarker> WithoutMisplaced(std::vector<SeenMarker> markers,
   }
 }
 
-std::vector<std::array<Eigen::Vector2d, 4>> PrintInPicture(const Card& card,
-                                                           const SheetPose& pose) {
-  const PlaneMap sheet = PlaneMap::FromGeometry(pose.PlaneAtHeight(0), 0, "card");
-  std::vector<std::array<Eigen::Vector2d, 4>> areas;
-  for (const auto& [x, y, width, height] : card.print_mm) {
-    areas.push_back({sheet.ImageFromPlane({x, y + height}),
-                     sheet.ImageFromPlane({x + width, y + height}),
-                     sheet.ImageFromPlane({x + width, y}),
-                     sheet.ImageFromPlane({x, y})});
-  }
-  return areas;
-}
-
 ScaleResult SolveCard(const Photo& photo,
                       const ScaleOptions& options,
                       const Card& printed,
@@ -254,10 +241,7 @@ ScaleResult SolveCard(const Photo& photo,
   const ProblemFrom problem = [&](const std::vector<SeenMarker>& markers) {
     return CardProblem(markers, card, camera);
   };
-  ScaleResult result =
-      Solve(photo, options, WithoutMisplaced(MarkersOf(card, seen), problem), problem);
-  result.print_px = PrintInPicture(card, result.sheet->pose);
-  return result;
+  return Solve(photo, options, WithoutMisplaced(MarkersOf(card, seen), problem), problem);
 }
 
 std::vector<Card> BuiltInCards() { return {BuiltInCard(Paper::kA4), BuiltInCard(Paper::kLetter)}; }

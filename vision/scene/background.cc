@@ -131,22 +131,17 @@ Surface SettleFromFew(const Samples& all) {
   return Settle(all, Weights(Residuals(rough, all), rough.scatter));
 }
 
-// The background's value along one row of a window, a cubic in x, for one channel.
+// The background's value along one row, a cubic in x, for one channel.
 class RowOfBackground {
  public:
-  RowOfBackground(const std::array<double, kTerms>& k,
-                  const Window& window,
-                  const cv::Size& size,
-                  int row) {
-    const double step_y = window.area_px.height / size.height;
-    const double y = 2 * (window.area_px.y + (row + 0.5) * step_y) / window.full_size.height - 1;
+  RowOfBackground(const std::array<double, kTerms>& k, const cv::Size& size, int row) {
+    const double y = 2 * (row + 0.5) / size.height - 1;
     c0_ = static_cast<float>(k[0] + y * (k[2] + y * (k[5] + y * k[9])));
     c1_ = static_cast<float>(k[1] + y * (k[4] + y * k[8]));
     c2_ = static_cast<float>(k[3] + y * k[7]);
     c3_ = static_cast<float>(k[6]);
-    const double step_x = window.area_px.width / size.width;
-    x0_ = static_cast<float>(2 * (window.area_px.x + 0.5 * step_x) / window.full_size.width - 1);
-    dx_ = static_cast<float>(2 * step_x / window.full_size.width);
+    x0_ = static_cast<float>(1.0 / size.width - 1);
+    dx_ = static_cast<float>(2.0 / size.width);
   }
   float operator()(int col) const {
     const float x = x0_ + dx_ * static_cast<float>(col);
@@ -159,7 +154,7 @@ class RowOfBackground {
 
 // The number of channels is known to the compiler: it takes many pixels at a time.
 template <int kChannels>
-cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, const Window& window) {
+cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background) {
   cv::Mat distance(image.size(), CV_32FC1);
   const auto fill_row = [&](int row) {
     const float* pixels = image.ptr<float>(row);
@@ -167,7 +162,7 @@ cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background, cons
     std::fill(out, out + image.cols, 0.0f);
     for (int c = 0; c < kChannels; ++c) {
       const auto channel = static_cast<std::size_t>(c);
-      const RowOfBackground expected(background.coefficients[channel], window, image.size(), row);
+      const RowOfBackground expected(background.coefficients[channel], image.size(), row);
       const auto inverse = static_cast<float>(1 / background.scatter[channel]);
       for (int col = 0; col < image.cols; ++col) {
         const float off = (pixels[col * kChannels + c] - expected(col)) * inverse;
@@ -201,24 +196,20 @@ BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
   return model;
 }
 
-cv::Mat DistanceFromBackground(const cv::Mat& image,
-                               const BackgroundModel& background,
-                               const Window& window) {
-  return image.channels() == 1 ? DistanceIn<1>(image, background, window)
-                               : DistanceIn<3>(image, background, window);
+cv::Mat DistanceFromBackground(const cv::Mat& image, const BackgroundModel& background) {
+  return image.channels() == 1 ? DistanceIn<1>(image, background)
+                               : DistanceIn<3>(image, background);
 }
 
-cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr,
-                                     const BackgroundModel& background,
-                                     const Window& window) {
+cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr, const BackgroundModel& background) {
   constexpr float kDeepestShadow = 0.15f;  // darker than that is no shadow but something black
   cv::Mat distance(bgr.size(), CV_32FC1);
   std::array<float, 3> inverse{};
   for (std::size_t c = 0; c < 3; ++c) inverse[c] = static_cast<float>(1 / background.scatter[c]);
   for (int row = 0; row < bgr.rows; ++row) {
-    const RowOfBackground rows[3] = {{background.coefficients[0], window, bgr.size(), row},
-                                     {background.coefficients[1], window, bgr.size(), row},
-                                     {background.coefficients[2], window, bgr.size(), row}};
+    const RowOfBackground rows[3] = {{background.coefficients[0], bgr.size(), row},
+                                     {background.coefficients[1], bgr.size(), row},
+                                     {background.coefficients[2], bgr.size(), row}};
     const cv::Vec3f* pixels = bgr.ptr<cv::Vec3f>(row);
     float* out = distance.ptr<float>(row);
     for (int col = 0; col < bgr.cols; ++col) {

@@ -196,7 +196,7 @@ LadderResult ClimbLadder(const Photo& photo,
                          const StoredHints& hints,
                          StageLog* log) {
   const SceneView view(photo, markers, hints);
-  if (std::min(view.window.area_px.width, view.window.area_px.height) < kSmallestSide) {
+  if (std::min(view.area_px.width, view.area_px.height) < kSmallestSide) {
     throw Refused(Reason::kTooSmall,
                   std::string("scene: ") + (hints.roi_px ? "--roi" : "the picture") +
                       " is less than " + std::to_string(kSmallestSide) + " px high or wide; " +

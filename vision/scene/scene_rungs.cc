@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "vision/parallel.h"
+#include "vision/scene/background.h"
 #include "vision/scene/flood.h"
 #include "vision/scene/region_merging.h"
 #include "vision/scene/sharp_gradient.h"
@@ -75,9 +76,9 @@ Rung ThresholdAll(const cv::Mat& distance,
   return rung;
 }
 
-cv::Mat LabDistance(const SceneView& view, const ColourPictures& colour) {
+cv::Mat LabDistance(const ColourPictures& colour) {
   const BackgroundModel background = FitBackground(colour.lab->pixels, colour.ignore);
-  cv::Mat distance = DistanceFromBackground(colour.lab->pixels, background, view.LocalWindow());
+  cv::Mat distance = DistanceFromBackground(colour.lab->pixels, background);
   if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
   return distance;
 }
@@ -119,21 +120,21 @@ Rung GreyRung(const SceneView& view) {
   const auto at = std::make_shared<const ScaledImage>(SmallGrey(view, kSmallSide));
   const cv::Mat ignore = view.MarkerMask(*at);
   const BackgroundModel background = FitBackground(at->pixels, ignore);
-  cv::Mat distance = DistanceFromBackground(at->pixels, background, view.LocalWindow());
+  cv::Mat distance = DistanceFromBackground(at->pixels, background);
   if (!ignore.empty()) distance.setTo(0, ignore);
   return ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, view.hints);
 }
 
 Rung ColourRung(const SceneView& view, const ColourPictures& colour) {
   const Candidate like{{}, colour.lab, {}, "colour"};
-  return ThresholdAll(LabDistance(view, colour), colour.ignore, like, view.hints);
+  return ThresholdAll(LabDistance(colour), colour.ignore, like, view.hints);
 }
 
 Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
   cv::Mat light;
   colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
   const BackgroundModel background = FitBackground(light, colour.ignore);
-  cv::Mat distance = DistanceFromShadedBackground(light, background, view.LocalWindow());
+  cv::Mat distance = DistanceFromShadedBackground(light, background);
   if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
   const Candidate like{{}, colour.lab, {}, "shadow-blind"};
   return ThresholdAll(distance, colour.ignore, like, view.hints);
@@ -142,7 +143,7 @@ Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
 Outlines OutlinesIn(const SceneView& view) {
   Outlines outlines{SmallColour(view, kOutlineSide), {}, {}};
   const ColourPictures& colour = outlines.colour;
-  outlines.ground = GroundAtFrame(LabDistance(view, colour));
+  outlines.ground = GroundAtFrame(LabDistance(colour));
   const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
   for (const int closed_px : {3, 5})
     outlines.closed.push_back({closed_px, Walls(sharp_gradient, closed_px, colour.ignore)});

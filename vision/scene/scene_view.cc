@@ -16,17 +16,16 @@ using Eigen::Vector2d;
 
 constexpr double kMostEnlarged = 2;  // pictures that are smaller than what is looked at
 
-Window WholeOrRoi(const Photo& photo, const StoredHints& hints) {
+cv::Rect WholeOrRoi(const Photo& photo, const StoredHints& hints) {
   const cv::Rect whole({0, 0}, photo.grey().size());
-  const cv::Rect area = hints.roi_px ? (*hints.roi_px & whole) : whole;
-  return {cv::Rect2d(area), area.size()};
+  return hints.roi_px ? (*hints.roi_px & whole) : whole;
 }
 
-cv::Size SmallSize(const Window& window, int longest) {
-  const double side = std::max(window.area_px.width, window.area_px.height);
+cv::Size SmallSize(const cv::Rect& area_px, int longest) {
+  const double side = std::max(area_px.width, area_px.height);
   const double k = std::min(kMostEnlarged, longest / side);
-  return {std::max(1, static_cast<int>(std::lround(window.area_px.width * k))),
-          std::max(1, static_cast<int>(std::lround(window.area_px.height * k)))};
+  return {std::max(1, static_cast<int>(std::lround(area_px.width * k))),
+          std::max(1, static_cast<int>(std::lround(area_px.height * k)))};
 }
 
 cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
@@ -36,19 +35,17 @@ cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
   return resized;
 }
 
-// The same window in colour, 8 bit.
+// The same area in colour, 8 bit.
 cv::Mat SmallBgr(const SceneView& view, int longest) {
   const cv::Size full = view.photo.grey().size();
-  const double zoom = std::max(full.width, full.height) /
-                      std::max(view.window.area_px.width, view.window.area_px.height);
+  const double zoom =
+      std::max(full.width, full.height) / std::max(view.area_px.width, view.area_px.height);
   const cv::Mat colour = view.photo.DecodeColour(static_cast<int>(std::ceil(longest * zoom)));
   const double k = static_cast<double>(colour.cols) / full.width;
-  const cv::Rect2d area(view.window.area_px.x * k,
-                        view.window.area_px.y * k,
-                        view.window.area_px.width * k,
-                        view.window.area_px.height * k);
+  const cv::Rect2d area(
+      view.area_px.x * k, view.area_px.y * k, view.area_px.width * k, view.area_px.height * k);
   return Resized(colour(cv::Rect(area) & cv::Rect({0, 0}, colour.size())),
-                 SmallSize(view.window, longest));
+                 SmallSize(view.area_px, longest));
 }
 
 }  // namespace
@@ -59,11 +56,7 @@ SceneView::SceneView(const Photo& photo_in,
     : photo(photo_in),
       markers(markers_in),
       hints(hints_in),
-      window(WholeOrRoi(photo_in, hints_in)) {}
-
-Window SceneView::LocalWindow() const {
-  return {cv::Rect2d(0, 0, window.area_px.width, window.area_px.height), window.full_size};
-}
+      area_px(WholeOrRoi(photo_in, hints_in)) {}
 
 cv::Mat SceneView::MarkerMask(const ScaledImage& at) const {
   constexpr double kMargin = 1.6;  // side of the paper over that of the marker
@@ -87,18 +80,18 @@ cv::Mat SceneView::MarkerMask(const ScaledImage& at) const {
 ScaledImage SmallGrey(const SceneView& view, int longest) {
   // From there on a whole factor: many times faster, and as good.
   constexpr int kWholeFrom = 3;
-  const cv::Rect area(view.window.area_px);
+  const cv::Rect& area = view.area_px;
   ScaledImage small;
-  small.window = view.window;
+  small.area_px = view.area_px;
   cv::Mat reduced;
   const int factor = static_cast<int>(
       std::lround(static_cast<double>(std::max(area.width, area.height)) / longest));
   if (factor < kWholeFrom) {
-    reduced = Resized(view.photo.grey()(area), SmallSize(view.window, longest));
+    reduced = Resized(view.photo.grey()(area), SmallSize(view.area_px, longest));
   } else {
     // Whole grey values, as pictures that are small already have: scatter alike.
     BlockMeans(view.photo.grey()(area), factor).convertTo(reduced, CV_8U);
-    small.window.area_px = cv::Rect(area.tl(), reduced.size() * factor);
+    small.area_px = cv::Rect(area.tl(), reduced.size() * factor);
   }
   reduced.convertTo(small.pixels, CV_32FC1, 100.0 / 255);
   return small;
@@ -108,7 +101,7 @@ ColourPictures SmallColour(const SceneView& view, int longest) {
   ColourPictures colour;
   colour.bgr = SmallBgr(view, longest);
   colour.lab =
-      std::make_shared<const ScaledImage>(ScaledImage{LabFromBgr(colour.bgr), view.window});
+      std::make_shared<const ScaledImage>(ScaledImage{LabFromBgr(colour.bgr), view.area_px});
   colour.ignore = view.MarkerMask(*colour.lab);
   return colour;
 }

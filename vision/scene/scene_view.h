@@ -9,23 +9,24 @@
 
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
-#include "vision/scene/background.h"
 #include "vision/scene/scene.h"
 
 namespace bladecurve {
 
 // A small version of the photograph, or of a part of it.
 struct ScaledImage {
-  cv::Mat pixels;  // CV_32FC1 (lightness, 0 to 100) or CV_32FC3 (Lab)
-  Window window;
+  cv::Mat pixels;    // CV_32FC1 (lightness, 0 to 100) or CV_32FC3 (Lab)
+  cv::Rect area_px;  // of the photograph
 
-  [[nodiscard]] double full_px_per_px() const { return window.area_px.width / pixels.cols; }
+  [[nodiscard]] double full_px_per_px() const {
+    return static_cast<double>(area_px.width) / pixels.cols;
+  }
   [[nodiscard]] Eigen::Vector2d FullFromSmall(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d origin(window.area_px.x, window.area_px.y);
+    const Eigen::Vector2d origin(area_px.x, area_px.y);
     return (p + Eigen::Vector2d(0.5, 0.5)) * full_px_per_px() + origin - Eigen::Vector2d(0.5, 0.5);
   }
   [[nodiscard]] Eigen::Vector2d SmallFromFull(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d origin(window.area_px.x, window.area_px.y);
+    const Eigen::Vector2d origin(area_px.x, area_px.y);
     return (p + Eigen::Vector2d(0.5, 0.5) - origin) / full_px_per_px() - Eigen::Vector2d(0.5, 0.5);
   }
 };
@@ -35,12 +36,10 @@ struct SceneView {
   const Photo& photo;
   const std::vector<SeenMarker>& markers;
   const StoredHints& hints;
-  Window window;
+  cv::Rect area_px;
 
   SceneView(const Photo& photo, const std::vector<SeenMarker>& markers, const StoredHints& hints);
 
-  // The window as the small pictures and the background see it: coordinates start at its corner.
-  [[nodiscard]] Window LocalWindow() const;
   // Non-zero on the printed markers and their white margins, which are not scissors; empty if there
   // are none.
   [[nodiscard]] cv::Mat MarkerMask(const ScaledImage& at) const;

@@ -130,16 +130,6 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blade
                     "--pivot X,Y");
 }
 
-void RefuseEdgesShortOfPivot(const Pivot& pivot) {
-  const double shorter = pivot.overlap + pivot.overlap_sigma - 0.5 * std::abs(pivot.asymmetry);
-  if (pivot.source != "screw" || shorter >= 0) return;
-  throw Refused(
-      Reason::kNotScissors,
-      "pivot: the inner edge of one blade, continued, does not pass by the pivot but ends "
-      "short of it, as those of jaws may that do not cut; if these are scissors, a bevel "
-      "or a shadow hides that edge: use another background or light");
-}
-
 void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale) {
   constexpr double kFar = 2.5;       // standard uncertainties
   constexpr double kMostOfNone = 8;  // evidence; beyond, nothing was taken for a head falsely

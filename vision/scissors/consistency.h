@@ -34,10 +34,6 @@ void Doubt(LocatedEdge* edge, double off_px);
 // them is something else's border.
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);
 
-// Throws Refused{kNotScissors} where one of the edges, continued, does not reach past a pivot that
-// is seen: those of blades that cut cross it on the other blade's side.
-void RefuseEdgesShortOfPivot(const Pivot& pivot);
-
 // Throws Refused{kAmbiguousPivot} where a faint head lies far from where the blades put the pivot,
 // unless the edges, seen from a known side, mirror each other about it.
 void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale);
