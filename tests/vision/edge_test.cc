@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "vision/edge/edge_fit.h"
 #include "vision/edge_bound.h"
 #include "vision/edge_images.h"
 #include "vision/edge_reference.h"
@@ -306,6 +307,28 @@ TEST(LocateEdge, ABoundBelowTheTrueBlurMovesNoPlainEdge) {
 }
 
 // Unless the caller knows that nothing in the picture is that soft.
+// Fringes of compression look like sharper steps than a lens makes.
+TEST(FitEdge, ABlurExpectedFarTooSmallMovesNoPlainEdge) {
+  constexpr double kExpected = 0.4, kBlur = 1.02, kClose = 0.01;
+  Gaussian random(33);
+  for (int trial = 0; trial < 5; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat grey = PhotographOf(line, {kBlur, 7, 215, 0.6, 2.2}, random);
+    const EdgeGuess guess = GuessOf(line, 0.5, 0.5);
+    EdgeFitOptions options;
+    options.blur_px = kExpected;
+    const EdgeFit fit =
+        FitEdge(grey, testing::GammaCurve(2.2), guess.path_px, guess.blade_on_left, options);
+    double offset = 0;
+    for (const EdgeSlice& slice : fit.slices) {
+      const auto sample = static_cast<size_t>(slice.sample);
+      offset += slice.offset_px + line.Distance(fit.path.points[sample]);
+    }
+    EXPECT_NEAR(offset / static_cast<double>(fit.slices.size()), 0, kClose) << "trial " << trial;
+    EXPECT_NEAR(fit.blur_px, kBlur, 0.02) << "trial " << trial;
+  }
+}
+
 TEST(LocateEdge, AFirmBoundOfTheBlurHolds) {
   Gaussian random(25);
   const EdgeLook look{1.2, 60, 180, 1.5, 1};

@@ -64,6 +64,7 @@ class Fitter {
     before_ = offsets_;
     Take(SmoothPath(Shifted(path_, offsets_), blade_on_left, kSmoothing));
     for (int k = 0; k < kImproveRounds; ++k) Improve(kImprove);
+    softer_ = SofterThanUsual();
     Solve(kFinal);
     return Finish();
   }
@@ -130,6 +131,14 @@ class Fitter {
   // is softer than the bound.
   [[nodiscard]] bool SoftBeyondBound() const {
     return options_.may_be_softer && blur_ == most_blur_ && slopes_[kBladeSlope] < kFixed;
+  }
+
+  // Whether the windows see more blur than the sharper steps nearby let it have.
+  [[nodiscard]] bool SofterThanUsual() const {
+    constexpr double kMore = 0.05;  // of the blur
+    const double most = MostBlur(options_.blur_px, NoisePerContrast(windows_.fits(), Noise()));
+    return !options_.blur_known && blur_ >= most && most < most_blur_ &&
+           SpreadSeen(windows_.fits()) > kMore * blur_;
   }
 
   // The pixels of sample i, the edge lying offsets_[i] out of the path.
@@ -236,6 +245,9 @@ class Fitter {
     fit.seen = windows_.PlacedShare();
     fit.blur_px = blur_;
     fit.unbound_blur_px = unbound_blur_;
+    fit.softer = softer_;
+    fit.even =
+        std::min({slopes_[kBladeSlope], slopes_[kGroundSlope], slopes_[kGroundBend]}) == kFixed;
     fit.overexposed = Overexposure(band_).Share();
     fit.noise_blade = noise_.blade;
     fit.noise_ground = noise_.ground;
@@ -250,6 +262,7 @@ class Fitter {
   const ToneCurve& tone_;
   const EdgeFitOptions& options_;
   double most_blur_, blur_, unbound_blur_;
+  bool softer_ = false;
   SideNoise noise_;
   EdgePath path_;
   PixelBand band_;
@@ -273,7 +286,15 @@ EdgeFit FitEdge(const cv::Mat& grey,
                 const std::vector<Eigen::Vector2d>& start,
                 bool blade_on_left,
                 const EdgeFitOptions& options) {
-  return Fitter(grey, tone, options).Run(start, blade_on_left);
+  EdgeFit fit = Fitter(grey, tone, options).Run(start, blade_on_left);
+  if (!fit.softer) return fit;
+  // What looked like sharper steps may be fringes of compression. A plain step shows it: fitted as
+  // soft as it is, the light is even on both sides of it, which no shadow's is.
+  constexpr double kMuchSofter = 2;
+  EdgeFitOptions lifted = options;
+  lifted.blur_px *= kMuchSofter;
+  EdgeFit soft = Fitter(grey, tone, lifted).Run(start, blade_on_left);
+  return soft.even && !soft.softer ? soft : fit;
 }
 
 }  // namespace bladecurve

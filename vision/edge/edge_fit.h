@@ -31,6 +31,8 @@ struct EdgeFit {
   double seen = 0;                // share of the windows that place the edge to a third of a pixel
   double blur_px = 0;
   double unbound_blur_px = 0;  // as if options.most_blur_px bounded nothing
+  bool softer = false;         // it looks more blurred than options.blur_px lets it be
+  bool even = false;           // light slopes on neither side of it
   double overexposed =
       0;  // share of the path beside which one side is white beyond the picture's range
   double noise_blade = 0, noise_ground = 0;  // of a pixel, texture included, linear light
