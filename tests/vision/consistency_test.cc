@@ -153,6 +153,22 @@ TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   EXPECT_NO_THROW(RefuseUnconfirmedScene(again, faint));
 }
 
+TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
+  const Blades found = BladesWithRivals(0, 0);
+  const Pivot pivot = PivotSeen(0);
+  Scene scene;
+  Blades first = found;
+  DoubtLaterLook(scene, pivot, &first);
+  EXPECT_EQ(first.upper.edge.common_sigma_px, found.upper.edge.common_sigma_px);
+  scene.second_look = true;
+  Blades again = found;
+  DoubtLaterLook(scene, pivot, &again);
+  const double length_px = (found.upper.end.point_px - pivot.point_px).norm();
+  ASSERT_GT(length_px, 0);
+  EXPECT_NEAR(again.upper.edge.common_sigma_px, 0.01 * length_px, 0.003 * length_px);
+  EXPECT_EQ(again.lower.edge.common_sigma_px, again.upper.edge.common_sigma_px);
+}
+
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
   ScaleResult tilt_known, tilt_unknown;
   tilt_known.sheet.emplace();

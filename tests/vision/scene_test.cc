@@ -596,32 +596,45 @@ TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   }
 }
 
-TEST(SceneFinder, ShowsTheSameScissorsInAnotherMask) {
+TEST(SceneFinder, ShowsTheSameScissorsAtEveryLook) {
   const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
   StageLog log;
   SceneFinder finder(photo, {}, {}, &log);
   const Scene likeliest = finder.Likeliest();
-  finder.LookAgain();
-  const Scene again = finder.Likeliest();
   EXPECT_FALSE(likeliest.IsDoubtful());
-  EXPECT_TRUE(again.second_look && again.IsDoubtful());
-  EXPECT_EQ(again.warnings, std::vector<std::string>{"scene_doubtful"});
   const double near_px = 0.2 * (likeliest.left.tip_px - likeliest.pivot_px).norm();
-  EXPECT_LT((again.pivot_px - likeliest.pivot_px).norm(), near_px);
-  EXPECT_LT((again.left.tip_px - likeliest.left.tip_px).norm(), near_px);
-  EXPECT_LT((again.right.tip_px - likeliest.right.tip_px).norm(), near_px);
+  for (int look = 2; look <= SceneFinder::kLooks; ++look) {
+    finder.LookAgain();
+    const Scene again = finder.Likeliest();
+    EXPECT_TRUE(again.second_look && again.IsDoubtful()) << "look " << look;
+    EXPECT_EQ(again.warnings, std::vector<std::string>{"scene_doubtful"});
+    EXPECT_LT((again.pivot_px - likeliest.pivot_px).norm(), near_px);
+    EXPECT_LT((again.left.tip_px - likeliest.left.tip_px).norm(), near_px);
+    EXPECT_LT((again.right.tip_px - likeliest.right.tip_px).norm(), near_px);
+  }
 }
 
-TEST(SceneFinder, LooksUntilNoMaskIsLeft) {
-  const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
-  StageLog log;
-  SceneFinder finder(photo, {}, {}, &log);
-  constexpr int kMoreThanThereAre = 1000;
-  EXPECT_THROW(
-      {
-        for (int look = 0; look < kMoreThanThereAre; ++look) finder.LookAgain();
-      },
-      Refused);
+// The second look passes over all that the likeliest method shows, the third over one mask of it.
+TEST(LadderResult, IsChosenAnewWithoutMethodsAndMasks) {
+  const auto seen = [](const std::string& method, double quality) {
+    Candidate c = MaskWithTurn(0);
+    c.method = method;
+    c.pair.quality = quality;
+    c.mask = cv::Mat(1, 1, CV_8UC1);
+    return c;
+  };
+  LadderResult all;
+  all.closed = true;
+  all.seen = {seen("grey", 0.9), seen("grey", 0.8), seen("flood", 0.7)};
+  all.best = all.seen[0];
+  const LadderResult other_method = WithoutMethod(all, "grey");
+  EXPECT_EQ(other_method.best.method, "flood");
+  EXPECT_EQ(other_method.seen.size(), 1U);
+  const LadderResult other_mask = WithoutMaskOfBest(all);
+  EXPECT_EQ(other_mask.best.mask.data, all.seen[1].mask.data);
+  EXPECT_EQ(other_mask.seen.size(), 2U);
+  EXPECT_TRUE(other_method.closed && other_mask.closed);
+  EXPECT_EQ(WithoutMethod(other_method, "flood").best.pair.quality, 0);
 }
 
 // The waist of open scissors is wider than the members that cross there.

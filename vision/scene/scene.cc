@@ -124,7 +124,6 @@ Scene SceneFrom(const Candidate& found) {
   scene.shank_width_px = WidthOfMembers(pair) * at.full_px_per_px();
   scene.path_sigma_px = at.full_px_per_px();
   scene.quality = pair.quality;
-  scene.method = found.method;
   scene.outlined = found.outlined;
   return scene;
 }
@@ -215,9 +214,12 @@ SceneFinder::SceneFinder(const Photo& photo,
                          const std::vector<SeenMarker>& markers,
                          const StoredHints& hints,
                          StageLog* log)
-    : hints_(hints),
+    : photo_(photo),
+      markers_(markers),
+      hints_(hints),
       log_(log),
-      ladder_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log))) {
+      first_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log->plan(), log))),
+      ladder_(std::make_unique<LadderResult>(*first_)) {
   RefuseUnlessUsable(*ladder_, hints_);
 }
 
@@ -226,7 +228,7 @@ SceneFinder::~SceneFinder() = default;
 Scene SceneFinder::Likeliest() const {
   RefuseOtherInstruments(*ladder_, hints_);
   Scene scene = SceneFrom(ladder_->best);
-  scene.second_look = looked_again_;
+  scene.second_look = looks_ > 1;
   if (hints_.pivot_px) {
     scene.pivot_px = *hints_.pivot_px;
     scene.pivot_sigma_px = 1;
@@ -238,9 +240,13 @@ Scene SceneFinder::Likeliest() const {
 }
 
 void SceneFinder::LookAgain() {
-  *ladder_ = WithoutMaskOfBest(std::move(*ladder_));
+  if (++looks_ == 2) {
+    const LadderResult all = ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_);
+    *ladder_ = WithoutMethod(all, first_->best.method);
+  } else {
+    *ladder_ = WithoutMaskOfBest(*first_);
+  }
   RefuseUnlessUsable(*ladder_, hints_);
-  looked_again_ = true;
 }
 
 }  // namespace bladecurve

@@ -34,7 +34,6 @@ struct Scene {
   double shank_width_px = 0;  // of the members where they cross, across each
   double path_sigma_px = 0;   // how far off the paths may be
   double quality = 0;         // 0 to 1
-  std::string method;         // the rung of the ladder that gave it
   bool outlined = false;     // by sharp lines alone, which may be those of a bevel or a hard shadow
   bool second_look = false;  // what a likelier mask showed was refused
   std::vector<std::string> warnings;
@@ -46,11 +45,14 @@ struct Scene {
 struct LadderResult;
 
 // Finds the scissors: in the likeliest mask or, where what that one shows proves to be no blades,
-// in another.
+// in others.
 class SceneFinder {
  public:
+  static constexpr int kLooks = 3;  // a fourth finds hardly more scissors, but other things
+
   // Climbs the ladder of methods, the cheap ones first, until the geometry is consistent. Throws
-  // Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kTooSmall}.
+  // Refused{kNotScissors, kClosed, kBladesNotVisible, kSeveralScissors, kTooSmall}. The photograph
+  // and the log are to outlive it.
   SceneFinder(const Photo& photo,
               const std::vector<SeenMarker>& markers,
               const StoredHints& hints,
@@ -60,15 +62,17 @@ class SceneFinder {
   // Throws Refused{kNotScissors, kSeveralScissors, kOutOfPlane}.
   [[nodiscard]] Scene Likeliest() const;
 
-  // Drops the mask that showed the likeliest scene. Throws like the constructor where no other mask
-  // shows any.
+  // Looks past what showed the likeliest scene: first at all that the other methods show, then at
+  // the other masks of its own. Throws like the constructor where these show no blades.
   void LookAgain();
 
  private:
+  const Photo& photo_;
+  std::vector<SeenMarker> markers_;
   StoredHints hints_;
   StageLog* log_;
-  std::unique_ptr<LadderResult> ladder_;
-  bool looked_again_ = false;
+  std::unique_ptr<LadderResult> first_, ladder_;  // at the first look, and now
+  int looks_ = 1;
 };
 
 }  // namespace bladecurve

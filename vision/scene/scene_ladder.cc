@@ -135,16 +135,15 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
   return result;
 }
 
-const char* WhyRun(const StageLog& log, const char* need) {
-  return log.runs_all() ? "everything is to run" : need;
-}
+const char* WhyRun(bool full, const char* need) { return full ? "everything is to run" : need; }
 
 // Fills in what all rungs saw.
-LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
+LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
+  const bool full = plan == Plan::kFull;
   LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
   log->Ran("scene-grey", "the cheapest look");
   const bool grey_suffices = Consistent(result);
-  if (grey_suffices && !log->runs_all() && !ShowsAnother(result.best)) {
+  if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log->Skipped("scene-colour", "grey gave a consistent scene");
     return result;
   }
@@ -152,27 +151,38 @@ LadderResult Climb(const SceneView& view, Rung* all, StageLog* log) {
   Consider(ColourRung(view, colour), "rung-colour", all, log);
   const LadderResult in_colour =
       Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", all, log);
-  if (grey_suffices && !log->runs_all()) {
+  if (grey_suffices && !full) {
     log->Ran("scene-colour", "another thing lies beside the scissors");
     result.several = result.several || in_colour.several;
     return result;
   }
   result = in_colour;
-  log->Ran("scene-colour", WhyRun(*log, "grey did not separate the blades"));
-  if (Consistent(result) && !log->runs_all()) {
+  log->Ran("scene-colour", WhyRun(full, "grey did not separate the blades"));
+  if (Consistent(result) && !full) {
     log->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
   const Outlines outlines = OutlinesIn(view);
   result = Consider(FloodRung(view, outlines), "rung-flood", all, log);
-  log->Ran("scene-flood", WhyRun(*log, "no threshold separates the blades"));
-  if (ShowsWholeBlades(result) && !log->runs_all()) {
+  log->Ran("scene-flood", WhyRun(full, "no threshold separates the blades"));
+  if (ShowsWholeBlades(result) && !full) {
     log->Skipped("scene-regions", "the flood left blades dry");
     return result;
   }
   result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
-  log->Ran("scene-regions", WhyRun(*log, "the flood ran into the blades"));
+  log->Ran("scene-regions", WhyRun(full, "the flood ran into the blades"));
   return result;
+}
+
+// What the candidates that are kept show best.
+template <typename IsKept>
+LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
+  std::vector<Candidate> kept;
+  std::copy_if(result.seen.begin(), result.seen.end(), std::back_inserter(kept), is_kept);
+  LadderResult next = Choose(kept);
+  next.closed = result.closed;
+  next.seen = std::move(kept);
+  return next;
 }
 
 }  // namespace
@@ -194,6 +204,7 @@ double TurnAtJoint(const LadderResult& result) {
 LadderResult ClimbLadder(const Photo& photo,
                          const std::vector<SeenMarker>& markers,
                          const StoredHints& hints,
+                         Plan plan,
                          StageLog* log) {
   const SceneView view(photo, markers, hints);
   if (std::min(view.area_px.width, view.area_px.height) < kSmallestSide) {
@@ -203,18 +214,17 @@ LadderResult ClimbLadder(const Photo& photo,
                       (hints.roi_px ? "give a larger one" : "use a larger photograph"));
   }
   Rung all;
-  LadderResult result = Climb(view, &all, log);
+  LadderResult result = Climb(view, plan, &all, log);
   result.seen = std::move(all.candidates);
   return result;
 }
 
-LadderResult WithoutMaskOfBest(LadderResult result) {
-  std::vector<Candidate> seen = std::move(result.seen);
-  std::erase_if(seen, [&](const Candidate& c) { return c.mask.data == result.best.mask.data; });
-  LadderResult next = Choose(seen);
-  next.closed = result.closed;
-  next.seen = std::move(seen);
-  return next;
+LadderResult WithoutMethod(const LadderResult& result, const std::string& method) {
+  return Keeping(result, [&](const Candidate& c) { return c.method != method; });
+}
+
+LadderResult WithoutMaskOfBest(const LadderResult& result) {
+  return Keeping(result, [&](const Candidate& c) { return c.mask.data != result.best.mask.data; });
 }
 
 }  // namespace bladecurve

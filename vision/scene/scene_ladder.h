@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "vision/scene/scene.h"
@@ -27,14 +28,16 @@ struct LadderResult {
 // where a ring merges with a shadow or a shank is not seen to its end.
 [[nodiscard]] double TurnAtJoint(const LadderResult& result);
 
-// Tries one rung after the other until one gives a consistent pair of blades; logs what ran and
-// why.
+// Tries one rung after the other until one gives a consistent pair of blades, or all of them; logs
+// what ran and why.
 [[nodiscard]] LadderResult ClimbLadder(const Photo& photo,
                                        const std::vector<SeenMarker>& markers,
                                        const StoredHints& hints,
+                                       Plan plan,
                                        StageLog* log);
 
-// What the other masks show best, without climbing on.
-[[nodiscard]] LadderResult WithoutMaskOfBest(LadderResult result);
+// What other methods show best, of all that was seen; and what other masks do.
+[[nodiscard]] LadderResult WithoutMethod(const LadderResult& result, const std::string& method);
+[[nodiscard]] LadderResult WithoutMaskOfBest(const LadderResult& result);
 
 }  // namespace bladecurve

@@ -231,6 +231,13 @@ void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
   }
 }
 
+void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
+  constexpr double kOfLength = 0.01;  // over annotated photographs
+  if (!scene.second_look) return;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower})
+    AddSigma(&blade->edge, kOfLength * BladeLength(pivot, *blades));
+}
+
 void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
   constexpr double kOfDifference = 0.3;
   if (!PassUnlike(pivot)) return;

@@ -67,6 +67,10 @@ void DoubtSofterEdge(Blades* blades);
 // step lies close by, as that of a narrow shadow does.
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades);
 
+// What was found at a second look only may follow other lines than the blades' borders: its edges
+// are less certain by a hundredth of the blades' length.
+void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades);
+
 // The distal ends of edges that pass although they are no mirror images: one of the edges is
 // something else's border, or the view is oblique. Either may turn the angle by as much as they
 // differ.

@@ -87,6 +87,7 @@ void CheckAgainstEachOther(const MirrorView& view, const Pivot& pivot, Blades* b
   RefuseContestedHead(pivot, view.scale);
   RefuseUnlikeEdges(pivot, view.scale, *blades);
   RefuseUnconfirmedScene(view.scene, pivot);
+  DoubtLaterLook(view.scene, pivot, blades);
   CutWhereEdgesPart(view, pivot, blades);
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
@@ -118,17 +119,17 @@ Scissors LocateIn(const ScissorsView& view, Scene scene, StageLog* log) {
 }  // namespace
 
 Scissors LocateScissors(const ScissorsView& view, SceneFinder* finder, StageLog* log) {
-  try {
-    return LocateIn(view, finder->Likeliest(), log);
-  } catch (const Refused& by_likeliest) {
+  std::optional<Refused> by_likeliest;
+  for (int look = 1; look <= SceneFinder::kLooks; ++look) {
     try {
-      finder->LookAgain();
-      log->Ran("scene-again", by_likeliest.what());
+      if (look > 1) finder->LookAgain();
       return LocateIn(view, finder->Likeliest(), log);
-    } catch (const Refused&) {
-      throw by_likeliest;
+    } catch (const Refused& refusal) {
+      if (!by_likeliest) by_likeliest = refusal;
+      if (look < SceneFinder::kLooks) log->Ran("scene-again", refusal.what());
     }
   }
+  throw Refused(*by_likeliest);
 }
 
 }  // namespace bladecurve

@@ -25,8 +25,8 @@ struct ScissorsView {
   const StoredHints& hints;
 };
 
-// Edges, ends and pivot. Where the likeliest scene proves to be no scissors, what another mask
-// shows is tried; where that fails as well, throws Refused for the reason the likeliest gave.
+// Edges, ends and pivot. Where the likeliest scene proves to be no scissors, what else is seen is
+// tried; where that fails as well, throws Refused for the reason the likeliest gave.
 [[nodiscard]] Scissors LocateScissors(const ScissorsView& view, SceneFinder* finder, StageLog* log);
 
 }  // namespace bladecurve
