@@ -341,6 +341,60 @@ TEST(Fit, TimesAreLeftOutOnRequest) {
   EXPECT_FALSE(record["photos"][0]["plan"][0].contains("ms"));
 }
 
+TEST(Fit, PlanFullRunsEveryStage) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const auto skipped = [&](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {"scissors.jpg", "--mm-per-px", MmPerPx()};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    const Json record = MustFit(folder, arguments);
+    return std::ranges::count_if(record["photos"][0]["plan"],
+                                 [](const Json& stage) { return !stage["ran"].get<bool>(); });
+  };
+  EXPECT_GT(skipped({}), 0) << "a plain photograph needs every stage: this test is of no use";
+  EXPECT_EQ(skipped({"--plan", "full"}), 0);
+}
+
+TEST(Fit, DebugPicturesStandInAFolderForEachPhotograph) {
+  const fs::path folder = TestFolder();
+  const std::string mayo = (kSamples / "mayo.jpg").string();
+  const auto pictures = [&](const fs::path& in) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder / in))
+      if (entry.is_regular_file()) names.push_back(entry.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+  };
+  MustFit(folder, {mayo, "--marker-mm", "25", "--debug", "one"});
+  const std::vector<std::string> of_one = pictures("one");
+  for (const char* stage : {"scale", "scene", "edge-upper", "edge-lower", "pivot"}) {
+    EXPECT_TRUE(std::ranges::any_of(of_one, [&](const std::string& name) {
+      return name.find(stage) != std::string::npos;
+    })) << stage;
+  }
+  WriteText(folder / "one" / "99_scene.png", "of an earlier run");
+  MustFit(folder, {mayo, "--marker-mm", "25", "--debug", "one"});
+  EXPECT_EQ(pictures("one"), of_one) << "what an earlier run left is taken for this one's";
+  MustFit(folder,
+          {mayo, (kSamples / "mayo_wide.jpg").string(), "--marker-mm", "25", "--debug", "two"});
+  EXPECT_EQ(pictures("two/1_mayo"), of_one);
+  EXPECT_FALSE(pictures("two/2_mayo_wide").empty());
+}
+
+// As the wrong unit of a scale makes it.
+TEST(Fit, WarnsOfBladesThatNoScissorsHave) {
+  const fs::path folder = TestFolder();
+  WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
+  const auto warns = [&](double times) {
+    const double mm_per_px = times * PhotoFromAbove().truth.mm_per_px;
+    const Json record = MustFit(folder, {"scissors.jpg", "--mm-per-px", std::to_string(mm_per_px)});
+    return std::ranges::count(record["warnings"], Json("size_unusual")) == 1;
+  };
+  EXPECT_FALSE(warns(1));
+  EXPECT_TRUE(warns(10));
+  EXPECT_TRUE(warns(0.05));
+}
+
 TEST(Fit, WithoutAScaleItIsRefused) {
   const fs::path folder = TestFolder();
   WriteText(folder / "scissors.png", PngFile(PhotoFromAbove().bgr, PngKind::kRgb8));
