@@ -20,13 +20,17 @@ constexpr double kBlade = 120, kGround = 200, kDark = 50;  // grey values, linea
 double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
 
 // Light that depends on the distance from an upright edge, the ground on its right.
-std::optional<Margin> MarginIn(const std::function<double(double)>& light) {
+cv::Mat PictureOf(const std::function<double(double)>& light) {
   testing::Gaussian random(1);
   cv::Mat grey(160, 200, CV_8UC1);
   for (int y = 0; y < grey.rows; ++y) {
     for (int x = 0; x < grey.cols; ++x)
       grey.at<uchar>(y, x) = cv::saturate_cast<uchar>(light(x - kEdgeX) + random());
   }
+  return grey;
+}
+
+LocatedEdge UprightEdge() {
   LocatedEdge edge;
   for (int y = 10; y < 150; ++y) {
     LocatedEdgePoint point;
@@ -34,7 +38,11 @@ std::optional<Margin> MarginIn(const std::function<double(double)>& light) {
     point.normal = {1, 0};
     edge.points.push_back(point);
   }
-  return FindMargin(grey, testing::GammaCurve(1), edge, kBladePx);
+  return edge;
+}
+
+std::optional<Margin> MarginIn(const std::function<double(double)>& light) {
+  return FindMargin(PictureOf(light), testing::GammaCurve(1), UprightEdge(), kBladePx);
 }
 
 double WithMargin(double d, double width_px) {
@@ -72,6 +80,32 @@ TEST(FindMargin, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
   EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
       << "a bright blade";
+}
+
+TEST(BandBeside, LiesBetweenAnEdgeAndItsRival) {
+  LocatedEdge edge = UprightEdge();
+  edge.rival_px = -12;
+  const cv::Mat grey = PictureOf([](double d) { return WithMargin(d, 12); });
+  const Band band = BandBeside(grey, testing::GammaCurve(1), edge);
+  EXPECT_EQ(band.width_px, 12);
+  EXPECT_NEAR(band.light, kDark / 255, 0.02);
+}
+
+TEST(MayLieAlong, SeesStripsAsDarkAndAThirdAsWideOnEitherSide) {
+  constexpr double kBandPx = 20;
+  const auto lies_along = [](const std::function<double(double)>& light) {
+    return MayLieAlong(
+        PictureOf(light), testing::GammaCurve(1), UprightEdge(), {kBandPx, kDark / 255});
+  };
+  const auto with_margin = [&](double width_px, double shift_px) {
+    return lies_along([=](double d) { return WithMargin(d + shift_px, width_px); });
+  };
+  EXPECT_FALSE(with_margin(0, 0));
+  EXPECT_FALSE(with_margin(3, 0)) << "contact with the ground darkens that much";
+  EXPECT_TRUE(with_margin(8, 0));
+  EXPECT_TRUE(with_margin(8, -8)) << "outside the edge";
+  EXPECT_FALSE(lies_along([](double d) { return 20 + Smooth(d) * (kGround - 20); }))
+      << "a black blade is darker than the band";
 }
 
 TEST(AreOneShading, NeedsMarginsDarkerThanTheBladeAndAboutAsDarkAndWide) {

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -225,13 +226,14 @@ class PaintedBlades {
   }
 
   void Paint(double slope, double below_px, uchar light) {
-    std::vector<cv::Point> band;
-    for (const auto& [x, below] :
-         {std::pair(kHeel, 0.0), {kEnd, 0.0}, {kEnd, below_px}, {kHeel, below_px}}) {
-      const Eigen::Vector2d p = kFiner * (At(x, slope, below) + Eigen::Vector2d(0.5, 0.5));
-      band.emplace_back(cvRound(p.x()), cvRound(p.y()));
-    }
-    cv::fillConvexPoly(fine_, band, cv::Scalar::all(light));
+    PaintBand(slope, 0, below_px, kEnd, light);
+  }
+
+  // The side of the upper blade's shank that faces as its edge does, with a shadow beyond it.
+  void PaintShank(uchar light, double shadow_px, uchar shade) {
+    PaintBand(kUpper, kShankBelowPx, -kShankPx, kShankEnd, light);
+    PaintBand(kUpper, kShankBelowPx, -shadow_px, kShankEnd, shade);
+    shank_seen_ = true;
   }
 
   // Located from traces that begin at `from`: before the crossing both lie on the upper edge.
@@ -247,6 +249,8 @@ class PaintedBlades {
       blade->tip_px = At(kEnd, slope);
       blade->width_px = kBladePx;
     }
+    for (int x = kShankEnd - 5; shank_seen_ && x > kHeel + 5; --x)
+      scene.left.shank_px.push_back(At(x, kUpper, kShankBelowPx));
     scene.path_sigma_px = 1;
     ScaleOptions options;
     options.mm_per_px = 0.15;
@@ -269,8 +273,23 @@ class PaintedBlades {
   }
 
  private:
-  static constexpr int kFiner = 8;
+  static constexpr int kFiner = 8, kShankEnd = 240;
+  static constexpr double kShankBelowPx = 130, kShankPx = 30;
+
+  // Between a line some way below a blade's edge and its parallel further below.
+  void PaintBand(double slope, double from_px, double below_px, int end, uchar light) {
+    std::vector<cv::Point> band;
+    for (const auto& [x, below] :
+         {std::pair(kHeel, 0.0), {end, 0.0}, {end, below_px}, {kHeel, below_px}}) {
+      const Eigen::Vector2d p =
+          kFiner * (At(x, slope, from_px + below) + Eigen::Vector2d(0.5, 0.5));
+      band.emplace_back(cvRound(p.x()), cvRound(p.y()));
+    }
+    cv::fillConvexPoly(fine_, band, cv::Scalar::all(light));
+  }
+
   cv::Mat fine_;
+  bool shank_seen_ = false;
 };
 
 TEST(LocateBlades, LeavesNarrowShadowsInSharpPictures) {
@@ -312,6 +331,34 @@ TEST(LocateBlades, DoubtAnEdgeWithinABandThatNothingSettles) {
   const Eigen::Vector2d middle = upper.points[upper.points.size() / 2].trend_px;
   const double off_px = middle.y() - PaintedBlades::At(middle.x(), PaintedBlades::kUpper).y();
   EXPECT_LT(std::abs(off_px), kWithin * upper.common_sigma_px);
+}
+
+// Grey on grey, a dark band along one edge is a bevel if the same side of the shank, which would cast
+// the same shadow, casts none.
+TEST(LocateBlades, TakeABandForABevelThatIsNoShadowOfTheShanks) {
+  constexpr double kBandPx = 22, kBlurPx = 0.8;
+  constexpr uchar kGround = 200, kBand = 90, kPlate = 165;
+  const auto upper = [&](const std::function<void(PaintedBlades*)>& paint_shank) {
+    PaintedBlades blades(kGround);
+    blades.Paint(PaintedBlades::kLower, PaintedBlades::kBladePx, kPlate);
+    blades.Paint(PaintedBlades::kUpper, -PaintedBlades::kBladePx, kPlate);
+    blades.Paint(PaintedBlades::kUpper, -kBandPx, kBand);
+    paint_shank(&blades);
+    return blades.Locate(PaintedBlades::kCrossing + 20, kBlurPx).upper;
+  };
+  constexpr double kClear = 0.3, kDoubtful = 0.5;  // ambiguity
+  const LocatedEdge no_shank = upper([](PaintedBlades*) {});
+  EXPECT_GT(no_shank.ambiguity, kDoubtful) << "something else settles it";
+  EXPECT_GT(no_shank.common_sigma_px, 1);
+  const LocatedEdge bevel =
+      upper([&](PaintedBlades* blades) { blades->PaintShank(kPlate, 0, kBand); });
+  EXPECT_LT(bevel.ambiguity, kClear);
+  EXPECT_LT(bevel.common_sigma_px, 0.3);
+  const Eigen::Vector2d middle = bevel.points[bevel.points.size() / 2].trend_px;
+  EXPECT_NEAR(middle.y(), PaintedBlades::At(middle.x(), PaintedBlades::kUpper).y(), 0.5);
+  const LocatedEdge shadow =
+      upper([&](PaintedBlades* blades) { blades->PaintShank(kPlate, 0.5 * kBandPx, kBand); });
+  EXPECT_GT(shadow.ambiguity, kDoubtful);
 }
 
 // A bevel about as dark as the ground seems to part the blades as far as their joint.

@@ -110,6 +110,26 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
 }
 
+Band BandBeside(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge) {
+  return {std::abs(edge.rival_px), TypicalLight(grey, tone, edge, 0.5 * edge.rival_px)};
+}
+
+bool MayLieAlong(const cv::Mat& grey,
+                 const ToneCurve& tone,
+                 const LocatedEdge& edge,
+                 const Band& band) {
+  constexpr double kAsWide = 0.35, kBlurPx = 3;  // of the width; the strip's two steps
+  constexpr double kAsLight = 1.4;               // a factor
+  const double least_px = std::max(1.0, kAsWide * band.width_px - kBlurPx);
+  double alike_px = 0;
+  for (double across = -band.width_px - kBlurPx; across <= band.width_px + kBlurPx; ++across) {
+    const bool alike = WithinFactor(TypicalLight(grey, tone, edge, across), band.light, kAsLight);
+    alike_px = alike ? alike_px + 1 : 0;
+    if (alike_px >= least_px) return true;
+  }
+  return false;
+}
+
 bool AreOneShading(const Margin& a, const Margin& b) {
   constexpr double kSameLight = 1.6, kSameGround = 1.25;
   return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround);

@@ -24,6 +24,21 @@ struct Margin {
                                                const LocatedEdge& edge,
                                                double blade_px);
 
+// What lies between an edge and its rival.
+struct Band {
+  double width_px = 0;
+  double light = 0;  // linear
+};
+
+[[nodiscard]] Band BandBeside(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge);
+
+// Whether a strip as light as the band, and a third as wide at least, lies along another edge: if it
+// does not, and that faces the same way, the band is no shadow.
+[[nodiscard]] bool MayLieAlong(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const LocatedEdge& edge,
+                               const Band& band);
+
 // Whether margins along the two sides of a blade are how light falls off towards the borders of a
 // rounded one: dark, alike in light and width, before the same ground.
 [[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b);

@@ -197,6 +197,22 @@ std::vector<Vector2d> AheadOf(std::vector<Vector2d> arc,
   return arc;
 }
 
+// A shank's outer side from the joint on, of a blade's far side that goes on to the shank's end; the
+// second half, where rings begin, left out.
+std::vector<Vector2d> ShankBehind(const std::vector<Vector2d>& arc,
+                                  const Vector2d& shank_crotch,
+                                  const Vector2d& axis) {
+  constexpr double kBeforeRing = 0.5;  // of the way to the shank's end
+  const double end = (arc.back() - shank_crotch).dot(axis);
+  std::vector<Vector2d> side;
+  for (const Vector2d& p : arc) {
+    const double along = (p - shank_crotch).dot(axis);
+    if (along < kBeforeRing * end) break;
+    if (along < 0) side.push_back(p);
+  }
+  return side;
+}
+
 void DescribeBlades(const Silhouette& silhouette,
                     const Crossing& at,
                     const Ends& ends,
@@ -207,12 +223,15 @@ void DescribeBlades(const Silhouette& silhouette,
   std::reverse(inner_first.begin(), inner_first.end());
   std::vector<Vector2d> outer_first = outline.Arc(ends.shank_second_at, ends.tip_first_at);
   std::reverse(outer_first.begin(), outer_first.end());
+  const std::vector<Vector2d> outer_second =
+      outline.Arc(ends.tip_second_at, ends.shank_first_at);
   pair->first = DescribeBlade(
-      silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair->crotch, axis));
-  pair->second = DescribeBlade(
-      silhouette,
-      outline.Arc(at.gap->far, ends.tip_second_at),
-      AheadOf(outline.Arc(ends.tip_second_at, ends.shank_first_at), pair->crotch, axis));
+      silhouette, std::move(inner_first), AheadOf(outer_first, pair->crotch, axis));
+  pair->second = DescribeBlade(silhouette,
+                               outline.Arc(at.gap->far, ends.tip_second_at),
+                               AheadOf(outer_second, pair->crotch, axis));
+  pair->first.shank = ShankBehind(outer_second, *pair->shank_crotch, axis);
+  pair->second.shank = ShankBehind(outer_first, *pair->shank_crotch, axis);
 }
 
 std::optional<BladePair> PairAt(const Silhouette& silhouette,

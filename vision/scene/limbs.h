@@ -15,6 +15,8 @@ namespace bladecurve {
 struct BladeContour {
   std::vector<Eigen::Vector2d> inner;
   std::vector<Eigen::Vector2d> outer;  // from the tip back to the concavity beside the pivot
+  // The side of the blade's own shank on which the cutting edge lies, from the joint on.
+  std::vector<Eigen::Vector2d> shank;
   Eigen::Vector2d tip;
   double length = 0;  // crotch to tip
   double width = 0;   // half way along

@@ -82,6 +82,7 @@ SceneBlade ToSceneBlade(const ScaledImage& at,
   SceneBlade out;
   for (const Vector2d& p : inner) out.inner_px.push_back(at.FullFromSmall(p));
   for (const Vector2d& p : blade.outer) out.outer_px.push_back(at.FullFromSmall(p));
+  for (const Vector2d& p : blade.shank) out.shank_px.push_back(at.FullFromSmall(p));
   std::reverse(out.outer_px.begin(), out.outer_px.end());
   out.tip_px = at.FullFromSmall(blade.tip);
   out.width_px = blade.width * at.full_px_per_px();

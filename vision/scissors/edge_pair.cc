@@ -146,6 +146,11 @@ void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower) {
   narrower->common_sigma_px = std::max(narrower->common_sigma_px, wider.common_sigma_px);
 }
 
+// Out of the blade, half way along.
+Vector2d TypicalNormal(const LocatedEdge& edge) {
+  return edge.points[edge.points.size() / 2].normal;
+}
+
 Vector2d DirectionOfDistalHalf(const LocatedEdge& edge) {
   return (edge.points.back().trend_px - edge.points[edge.points.size() / 2].trend_px).normalized();
 }
@@ -459,6 +464,24 @@ class BladeLocator {
     return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
   }
 
+  // The side of a blade's shank that faces as its cutting edge does; std::nullopt where it is not
+  // seen.
+  [[nodiscard]] std::optional<LocatedEdge> LocateShank(bool left) const {
+    EdgeGuess side = GuessFor(scene_, left);
+    side.path_px = (left ? scene_.left : scene_.right).shank_px;
+    side.blade_on_left = !left;  // going from the joint to the ring
+    if (side.path_px.size() < 2) return std::nullopt;
+    return UnlessRefused([&] { return LocateEdge(photo_.grey(), tone_, side, options_); });
+  }
+
+  // Whether the shank would have to cast a shadow like the dark band beside the edge, and does not.
+  [[nodiscard]] bool CastsNoShadow(const LocatedEdge& edge, bool left) const {
+    constexpr double kSameWay = 0.94;  // cosine
+    const std::optional<LocatedEdge> shank = LocateShank(left);
+    if (!shank || TypicalNormal(*shank).dot(TypicalNormal(edge)) < kSameWay) return false;
+    return !MayLieAlong(photo_.grey(), tone_, *shank, BandBeside(photo_.grey(), tone_, edge));
+  }
+
   // Along an edge or outer side of a blade.
   [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const {
     const double width_px = (left ? scene_.left : scene_.right).width_px;
@@ -475,7 +498,8 @@ class BladeLocator {
     const bool clear = HasDarkBand(edge), is_inner = edge.rival_px > 0;
     DarkBand band = clear ? JudgeDarkBand(Colours(), tone_, edge, blade.width_px, other.inner_px)
                           : JudgeByPattern(photo_.grey(), tone_, edge, other.inner_px);
-    if (band == DarkBand::kUnknown && (clear || is_inner) && IsRound(edge, left))
+    if (band == DarkBand::kUnknown && (clear || is_inner) &&
+        (IsRound(edge, left) || CastsNoShadow(edge, left)))
       band = DarkBand::kMetal;
     if (band == DarkBand::kUnknown) {
       if (clear && is_inner) Doubt(&edge, kDoubt * edge.rival_px);
