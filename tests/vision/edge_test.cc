@@ -430,9 +430,18 @@ TEST(LocateEdge, RefusesWhatHasNoEdge) {
             Reason::kLowContrast);
   EXPECT_EQ(RefusalOf(testing::Stored(blank, 3, 1, random), GuessOf(line, 0, 0)),
             Reason::kLowContrast);
-  const cv::Mat blurred = Banded(line, [](double d) { return 60 + 120 * Smooth(d, 12); });
-  const Reason reason = RefusalOf(testing::Stored(blurred, 1, 1, random), GuessOf(line, 0, 0));
-  EXPECT_TRUE(reason == Reason::kBlurred || reason == Reason::kLowContrast);
+}
+
+TEST(LocateEdge, TellsBlurFromWantOfContrast) {
+  Gaussian random(18);
+  const Line line = RandomLine(random);
+  const auto reason = [&](const std::function<double(double)>& light) {
+    return RefusalOf(testing::Stored(Banded(line, light), 1, 1, random), GuessOf(line, 0, 0));
+  };
+  for (const double blur_px : {6, 9, 12})
+    EXPECT_EQ(reason([=](double d) { return 60 + 120 * Smooth(d, blur_px); }), Reason::kBlurred);
+  EXPECT_EQ(reason([](double d) { return 120 + d; }), Reason::kLowContrast)
+      << "light that falls off";
 }
 
 TEST(LocateEdge, RefusesWhatIsTooShort) {

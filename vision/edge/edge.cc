@@ -15,6 +15,7 @@
 #include "vision/edge/edge_fit.h"
 #include "vision/edge/edge_path.h"
 #include "vision/edge/edge_scatter.h"
+#include "vision/edge/edge_softness.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
 
@@ -45,8 +46,20 @@ void RefuseIfTooShort(const EdgePath& path) {
                     " px of free edge are too few; photograph from nearer");
 }
 
-void RefuseIfUnseen(double share_seen, double least_share) {
+// What edges are looked for in, and about where.
+struct Picture {
+  const cv::Mat& grey;
+  const ToneCurve& tone;
+  const EdgeOptions& options;
+  const EdgePath& rough;
+};
+
+void RefuseIfUnseen(double share_seen, double least_share, const Picture& picture) {
   if (share_seen >= least_share) return;
+  if (IsBlurredAway(picture.grey, picture.rough)) {
+    throw Refused(Reason::kBlurred,
+                  "edge: too soft to be located; focus on the blades or hold the camera still");
+  }
   throw Refused(Reason::kLowContrast,
                 "edge: the blade stands out from its background along only " +
                     std::to_string(std::lround(100 * share_seen)) +
@@ -84,17 +97,10 @@ void RefuseIfBroken(double gap) {
                     " % of the blade; use another background or light");
 }
 
-// What edges are looked for in.
-struct Picture {
-  const cv::Mat& grey;
-  const ToneCurve& tone;
-  const EdgeOptions& options;
-};
-
 // The edge as the fit sees it, along the transition that was chosen.
 LocatedEdge FitAlong(const ChosenTransition& chosen, bool blade_on_left, const Picture& picture) {
   const EdgeOptions& options = picture.options;
-  RefuseIfUnseen(chosen.support, kLeastClear);
+  RefuseIfUnseen(chosen.support, kLeastClear, picture);
   EdgeFitOptions fit_options;
   fit_options.inner_px = chosen.inner_px;
   fit_options.outer_px = chosen.outer_px;
@@ -104,7 +110,7 @@ LocatedEdge FitAlong(const ChosenTransition& chosen, bool blade_on_left, const P
   fit_options.may_be_softer = options.may_be_softer;
   const EdgeFit fit =
       FitEdge(picture.grey, picture.tone, chosen.points, blade_on_left, fit_options);
-  RefuseIfUnseen(fit.seen, kLeastPlaced);
+  RefuseIfUnseen(fit.seen, kLeastPlaced, picture);
   LocatedEdge edge = PointsFromFit(fit);
   edge.overexposed = fit.overexposed;
   const double gap = LongestGap(edge);
@@ -184,8 +190,9 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
                        const EdgeGuess& guess,
                        const EdgeOptions& options) {
   const EdgePath rough = RoughPath(grey, guess);
-  return FitAlong(
-      ChooseTransition(grey, rough, guess.search_px), guess.blade_on_left, {grey, tone, options});
+  return FitAlong(ChooseTransition(grey, rough, guess.search_px),
+                  guess.blade_on_left,
+                  {grey, tone, options, rough});
 }
 
 LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
@@ -195,7 +202,7 @@ LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
                                const EdgeOptions& options) {
   const EdgePath rough = RoughPath(grey, guess);
   const ChosenTransition start = ChooseShadow(grey, rough, guess.search_px, shadow);
-  const Picture picture{grey, tone, options};
+  const Picture picture{grey, tone, options, rough};
   // A shadow that ends softly is a slope beside the blade, one that ends sharply another step.
   const auto sharp =
       UnlessRefused([&] { return FitFromTheShadow(start, guess.blade_on_left, picture); });

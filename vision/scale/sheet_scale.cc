@@ -144,8 +144,8 @@ ScaleResult Solve(const Photo& photo,
   throw Refused(
       Reason::kNoScale,
       markers.empty()
-          ? "scale: no marker of DICT_4X4_50 is seen; keep it whole in the picture, uncovered and "
-            "with white paper around it, and do not mirror the picture"
+          ? "scale: no marker of DICT_4X4_50 is seen; keep it whole in the picture, in focus, "
+            "uncovered and with white paper around it, and do not mirror the picture"
           : "scale: a marker is seen, but not its four sides; keep it uncovered, sharp and not "
             "overexposed");
 }
