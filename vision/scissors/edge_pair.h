@@ -8,15 +8,10 @@
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/scene/scene.h"
+#include "vision/scissors/blade_view.h"
 #include "vision/stage_log.h"
 
 namespace bladecurve {
-
-// The cutting edges of both blades, stored pixels. The upper blade is the left one, seen from the
-// pivot towards the tips.
-struct BladeEdges {
-  LocatedEdge upper, lower;
-};
 
 // Locates both edges beside the traces of the scene, at full resolution along the blades only. Dark
 // bands along both are taken for shadows, and edges at which light alone changes are left for where

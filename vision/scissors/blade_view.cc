@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/blade_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "vision/edge/edge_colour.h"
+#include "vision/image/robust_statistics.h"
+#include "vision/refused.h"
+#include "vision/scissors/scene_guess.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
+  const auto edge = UnlessRefused([&] { return LocateEdgeInView(view, guess); });
+  return edge ? *edge : LocateEdgeInHalvedView(view, guess);
+}
+
+}  // namespace
+
+BladeView::BladeView(const Photo& photo, const ScaleResult& scale, const Scene& scene)
+    : photo_(photo), tone_(scale.tone), scene_(scene) {
+  // A blade's edge, nearer to the camera than print by a plate or so, is as sharp.
+  options_.most_blur_px = PrintBlurPx(scale.markers).value_or(options_.most_blur_px);
+}
+
+std::optional<LocatedEdge> BladeView::InGrey(const EdgeGuess& guess) const {
+  return UnlessRefused([&] { return LocateEdge(grey(), tone_, guess, options_); });
+}
+
+template <typename Look>
+LocatedEdge BladeView::InGreyOr(const Look& look, const EdgeGuess& guess) const {
+  constexpr double kFaintPx = 1, kSurer = 0.5;
+  try {
+    LocatedEdge edge = LocateEdge(grey(), tone_, guess, options_);
+    if (TypicalSigma(edge.points) <= kFaintPx || edge.ambiguity > kAsGood) return edge;
+    const auto coloured = UnlessRefused([&] { return InColours(look, guess).value_or(edge); });
+    return coloured && TotalSigma(*coloured) < kSurer * TotalSigma(edge) ? *coloured : edge;
+  } catch (const Refused&) {
+    if (auto coloured = InColours(look, guess)) return *std::move(coloured);
+    throw;
+  }
+}
+
+// look(view, guess) in colours that part blade and background much better than grey does;
+// std::nullopt if they hardly do. Throws Refused as `look`.
+template <typename Look>
+std::optional<LocatedEdge> BladeView::InColours(const Look& look, const EdgeGuess& guess) const {
+  constexpr double kGain = 1.5;  // times better separated; less is no other picture
+  const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
+  const double in_grey = GreySeparation(grey(), tone_, guess);
+  if (!(view.separation > 0) || view.separation < kGain * in_grey) return std::nullopt;
+  return look(view, guess);
+}
+
+LocatedEdge BladeView::InGreyOrColours(const EdgeGuess& guess) const {
+  return InGreyOr(LocateEdgeInView, guess);
+}
+
+LocatedEdge BladeView::InGreyOrAnyColours(const EdgeGuess& guess) const {
+  return InGreyOr(InViewOrHalved, guess);
+}
+
+std::optional<LocatedEdge> BladeView::InColoursThenGrey(const EdgeGuess& guess,
+                                                        double shade) const {
+  constexpr double kColoursOffPx = 2;
+  auto coloured = UnlessRefused(
+      [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone_, guess, shade), guess); });
+  if (!coloured) return std::nullopt;
+  auto in_grey = InGrey({TrendOf(*coloured), guess.blade_on_left, kColoursOffPx});
+  const bool clearer =
+      in_grey && in_grey->ambiguity < kAsGood && Information(*in_grey) > Information(*coloured);
+  return clearer ? in_grey : coloured;
+}
+
+std::optional<LocatedEdge> BladeView::InShadow(const EdgeGuess& guess, Shadow shadow) const {
+  std::optional<LocatedEdge> edge =
+      UnlessRefused([&] { return LocateEdgeInShadow(grey(), tone_, guess, shadow, options_); });
+  const bool is_such = edge && (TypicalContrast(*edge) < 0) == (shadow == Shadow::kDarker);
+  return is_such ? std::move(edge) : std::nullopt;
+}
+
+std::optional<LocatedEdge> BladeView::OuterSide(bool left) const {
+  const EdgeGuess side = OuterSideOf(scene_, left);
+  return side.path_px.size() < 2 ? std::nullopt : InGrey(side);
+}
+
+std::optional<LocatedEdge> BladeView::ShankSide(bool left) const {
+  const EdgeGuess side = ShankSideOf(scene_, left);
+  return side.path_px.size() < 2 ? std::nullopt : InGrey(side);
+}
+
+std::optional<Margin> BladeView::MarginOf(const LocatedEdge& edge, bool left) const {
+  return FindMargin(grey(), tone_, edge, BladeOf(scene_, left).width_px);
+}
+
+const cv::Mat& BladeView::Colours() const {
+  std::call_once(decoded_, [this] { colours_ = photo_.DecodeColour(LongSide()); });
+  return colours_;
+}
+
+ReducedColours BladeView::Reduced() const {
+  constexpr int kSmallest = 1000;  // px, of the longest side
+  const int half = (LongSide() + 1) / 2;
+  const cv::Mat bgr = half < kSmallest ? Colours() : photo_.DecodeColour(half);
+  return {bgr, static_cast<double>(grey().cols) / bgr.cols};
+}
+
+bool BladeView::ShowsColourAtTop() const {
+  constexpr double kTop = 1.0 / 64;  // of the picture: a quarter of a millisecond of 12 MP
+  constexpr int kLongSide = 1000;    // px
+  return ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone_);
+}
+
+int BladeView::LongSide() const { return std::max(grey().cols, grey().rows); }
+
+double InlyingShare(const LocatedEdge& edge) {
+  const auto inlying = std::count_if(edge.points.begin(),
+                                     edge.points.end(),
+                                     [](const LocatedEdgePoint& point) { return point.inlier; });
+  return static_cast<double>(inlying) / static_cast<double>(edge.points.size());
+}
+
+double Information(const LocatedEdge& edge) {
+  return InlyingShare(edge) / std::pow(TotalSigma(edge), 2);
+}
+
+std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
+  std::vector<Vector2d> path;
+  for (const LocatedEdgePoint& point : edge.points) path.push_back(point.trend_px);
+  return path;
+}
+
+double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other) {
+  std::vector<double> distances;
+  for (const LocatedEdgePoint& p : edge.points) distances.push_back(DistanceTo(other, p.trend_px));
+  return Median(std::move(distances));
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <mutex>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "vision/edge/colour_border.h"
+#include "vision/edge/edge.h"
+#include "vision/edge/edge_margin.h"
+#include "vision/photo/photo.h"
+#include "vision/scale/scale.h"
+#include "vision/scene/scene.h"
+
+namespace bladecurve {
+
+// The cutting edges of both blades, stored pixels. The upper blade is the left one, seen from the
+// pivot towards the tips.
+struct BladeEdges {
+  LocatedEdge upper, lower;
+};
+
+// A photograph in which the edges of blades are looked for: in grey, and in colours, which are
+// decoded when they are first asked for, from any thread. Outlives none of its arguments.
+class BladeView {
+ public:
+  BladeView(const Photo& photo, const ScaleResult& scale, const Scene& scene);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const cv::Mat& grey() const { return photo_.grey(); }
+  [[nodiscard]] const ToneCurve& tone() const { return tone_; }
+  [[nodiscard]] const EdgeOptions& options() const { return options_; }
+
+  // The edge along `guess` in grey, where it is seen; with a bound on its blur, if print shows one.
+  [[nodiscard]] std::optional<LocatedEdge> InGrey(const EdgeGuess& guess) const;
+
+  // Where grey hides the edge, or shows it so faintly that colours place it twice as well, in the
+  // mixture of the colours in which blade and background differ most. Not before: the mixture
+  // depends on what lies somewhere beside the edge, grey on the step at the edge alone. Throws
+  // Refused as LocateEdge does.
+  [[nodiscard]] LocatedEdge InGreyOrColours(const EdgeGuess& guess) const;
+
+  // The same, colours also at half the resolution.
+  [[nodiscard]] LocatedEdge InGreyOrAnyColours(const EdgeGuess& guess) const;
+
+  // In colours, and in grey, which is sharper, where that shows an edge at the same place. shade:
+  // as for ViewWhereSidesDiffer.
+  [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess,
+                                                             double shade) const;
+
+  // As the place where a shadow begins.
+  [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess,
+                                                    Shadow shadow = Shadow::kDarker) const;
+
+  // The outer side of a blade, and the side of its shank that faces as its cutting edge does.
+  [[nodiscard]] std::optional<LocatedEdge> OuterSide(bool left) const;
+  [[nodiscard]] std::optional<LocatedEdge> ShankSide(bool left) const;
+
+  // Along an edge or outer side of a blade.
+  [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const;
+
+  // BGR, the whole photograph; and at half the resolution, at which colours are stored anyway. Of a
+  // photograph that would not be reduced, the whole, decoded but once.
+  [[nodiscard]] const cv::Mat& Colours() const;
+  [[nodiscard]] ReducedColours Reduced() const;
+  // Whether the topmost rows, which stand for the ground, show a colour.
+  [[nodiscard]] bool ShowsColourAtTop() const;
+
+ private:
+  template <typename Look>
+  [[nodiscard]] LocatedEdge InGreyOr(const Look& look, const EdgeGuess& guess) const;
+  template <typename Look>
+  [[nodiscard]] std::optional<LocatedEdge> InColours(const Look& look,
+                                                     const EdgeGuess& guess) const;
+  [[nodiscard]] int LongSide() const;
+
+  const Photo& photo_;
+  const ToneCurve& tone_;
+  const Scene& scene_;
+  EdgeOptions options_;
+  mutable std::once_flag decoded_;
+  mutable cv::Mat colours_;
+};
+
+// What an edge's points tell about where it runs, for comparison with another along it.
+[[nodiscard]] double Information(const LocatedEdge& edge);
+
+// Share of the points that count.
+[[nodiscard]] double InlyingShare(const LocatedEdge& edge);
+
+[[nodiscard]] std::vector<Eigen::Vector2d> TrendOf(const LocatedEdge& edge);
+
+// Between one edge and another along it.
+[[nodiscard]] double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other);
+
+// Ambiguity below which no other transition matches an edge's.
+inline constexpr double kAsGood = 0.45;
+
+}  // namespace bladecurve

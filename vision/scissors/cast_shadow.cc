@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/cast_shadow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "vision/scissors/consistency.h"
+#include "vision/scissors/dark_band.h"
+
+namespace bladecurve {
+namespace {
+
+bool IsSoftShadowsBorder(const LocatedEdge& edge, double most_blur_px) {
+  constexpr double kVague = 0.6;  // px
+  return std::isfinite(most_blur_px) && edge.slope_sigma_px > kVague && !HasDarkBand(edge) &&
+         TypicalContrast(edge) > 0;
+}
+
+// Between two lines that far within an edge.
+EdgeGuess Within(const LocatedEdge& edge, double nearest_px, double farthest_px, bool left) {
+  EdgeGuess guess{{}, left, 0.5 * (farthest_px - nearest_px)};
+  for (const LocatedEdgePoint& p : edge.points)
+    guess.path_px.push_back(p.trend_px - 0.5 * (nearest_px + farthest_px) * p.normal);
+  return guess;
+}
+
+// The edge as much further in as the shadow is wide, if light clearly changes there, as it does not
+// where the margin is but shading; doubted all the same.
+LocatedEdge WhereShadowBegins(const BladeView& view,
+                              LocatedEdge edge,
+                              const Margin& shadow,
+                              bool left) {
+  constexpr double kReach = 0.2, kLeast = 3;  // of the width, px; bevels end further in
+  constexpr double kUnclear = 0.75;           // ambiguity
+  constexpr double kDoubt = 0.5;              // of the width
+  const double reach_px = std::max(kLeast, kReach * shadow.width_px);
+  std::optional<LocatedEdge> begins =
+      view.InShadow(Within(edge, shadow.width_px - reach_px, shadow.width_px + reach_px, left),
+                    shadow.than_blade);
+  if (!begins || begins->ambiguity > kUnclear) return edge;
+  Doubt(&*begins, kDoubt * shadow.width_px);
+  return *std::move(begins);
+}
+
+}  // namespace
+
+LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) {
+  constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty
+  if (!IsSoftShadowsBorder(edge, view.options().most_blur_px)) return edge;
+  return view.InShadow(Within(edge, kNearest, kFarthest * edge.common_sigma_px, left))
+      .value_or(std::move(edge));
+}
+
+void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
+  const auto of_upper = view.MarginOf(edges->upper, true);
+  const auto of_lower = view.MarginOf(edges->lower, false);
+  if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
+  const bool left = of_upper.has_value();
+  const auto outer = view.OuterSide(!left);
+  const auto of_outer = outer ? view.MarginOf(*outer, !left) : std::nullopt;
+  const Margin& shadow = of_upper ? *of_upper : *of_lower;
+  if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
+  LocatedEdge& edge = of_upper ? edges->upper : edges->lower;
+  edge = WhereShadowBegins(view, std::move(edge), shadow, left);
+}
+
+}  // namespace bladecurve

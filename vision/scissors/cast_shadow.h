@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/scissors/blade_view.h"
+
+namespace bladecurve {
+
+// An edge across which light rises so slowly, going outwards, that it is vague although print
+// bounds its blur, with no second line near, is a soft shadow's border: from there to where the
+// shadow begins, if that is seen.
+[[nodiscard]] LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left);
+
+// An edge along the border of a shadow that its blade casts is looked for where that begins. The
+// other blade's outer side, which faces the same way, casts the same one.
+void LeaveCastShadow(const BladeView& view, BladeEdges* edges);
+
+}  // namespace bladecurve

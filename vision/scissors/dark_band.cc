@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/dark_band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "vision/edge/edge_shadow.h"
+#include "vision/image/blurred_step.h"
+#include "vision/scissors/consistency.h"
+#include "vision/scissors/scene_guess.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kFaint = 0.25;  // ambiguity; beside dark metal a shadow's begin is a low step
+
+bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
+  // Narrower bands are blur on both sides, or the steps' own margins.
+  constexpr double kLeast = 2.5, kMost = 4, kPerBlur = 4.5;  // px, px, standard deviations
+  const double narrowest =
+      std::clamp(kPerBlur * std::sqrt(TotalBlurVariance(edge.blur_px)), kLeast, kMost);
+  return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= narrowest;
+}
+
+// The edge once more along one side of the dark band beside it, if it is seen there.
+std::optional<LocatedEdge> AlongSide(const BladeView& view,
+                                     std::vector<Vector2d> side_px,
+                                     const LocatedEdge& edge,
+                                     bool left) {
+  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
+  return view.InGrey(
+      {std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+}
+
+// The edge along the outer side of the dark band beside it, if it is seen there.
+std::optional<LocatedEdge> BeyondBand(const BladeView& view, const LocatedEdge& edge, bool left) {
+  return edge.rival_px > 0 ? AlongSide(view, edge.rival_path_px, edge, left) : edge;
+}
+
+// Whether the blade is as dark along its other side as in the band beside this edge, as rounded
+// ones are. Shadows fall to one side.
+bool IsRound(const BladeView& view, const LocatedEdge& edge, bool left) {
+  constexpr double kWholeBand = 1.7;  // times a margin's width
+  const std::optional<LocatedEdge> border = BeyondBand(view, edge, left);
+  std::optional<LocatedEdge> outer = view.OuterSide(left);
+  if (outer && HasDarkBand(*outer)) outer = BeyondBand(view, *outer, !left);
+  if (!border || !outer) return false;
+  const auto band = view.MarginOf(*border, left), other = view.MarginOf(*outer, left);
+  if (!band || !other || !AreOneShading(*band, *other)) return false;
+  return kWholeBand * band->width_px > std::abs(edge.rival_px);
+}
+
+// Out of the blade, half way along.
+Vector2d TypicalNormal(const LocatedEdge& edge) {
+  return edge.points[edge.points.size() / 2].normal;
+}
+
+// Whether the shank would have to cast a shadow like the dark band beside the edge, and does not.
+bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left) {
+  constexpr double kSameWay = 0.94;  // cosine
+  const std::optional<LocatedEdge> shank = view.ShankSide(left);
+  if (!shank || TypicalNormal(*shank).dot(TypicalNormal(edge)) < kSameWay) return false;
+  return !MayLieAlong(view.grey(), view.tone(), *shank, BandBeside(view.grey(), view.tone(), edge));
+}
+
+// Faint bands are not worth the colours.
+DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
+  const std::vector<Vector2d>& other_px = BladeOf(view.scene(), !left).inner_px;
+  const double width_px = BladeOf(view.scene(), left).width_px;
+  const bool clear = HasDarkBand(edge), is_inner = edge.rival_px > 0;
+  const DarkBand band = clear ? JudgeDarkBand(view.Colours(), view.tone(), edge, width_px, other_px)
+                              : JudgeByPattern(view.grey(), view.tone(), edge, other_px);
+  const bool matters = clear || is_inner;
+  if (band != DarkBand::kUnknown || !matters) return band;
+  return IsRound(view, edge, left) || CastsNoShadow(view, edge, left) ? DarkBand::kMetal : band;
+}
+
+}  // namespace
+
+bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
+
+LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
+  constexpr double kDoubt = 0.5;  // of the band; in one rendered scene of five the edge is beyond
+  if (!HasDarkBand(edge, kFaint)) return edge;
+  const bool is_inner = edge.rival_px > 0;
+  const DarkBand band = Judge(view, edge, left);
+  if (band == DarkBand::kUnknown) {
+    if (HasDarkBand(edge) && is_inner) Doubt(&edge, kDoubt * edge.rival_px);
+    return edge;
+  }
+  const bool want_inner = band == DarkBand::kShadow;
+  return AlongSide(view, want_inner == is_inner ? TrendOf(edge) : edge.rival_path_px, edge, left)
+      .value_or(edge);
+}
+
+void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right) {
+  const auto banded = [](const LocatedEdge& edge) {
+    return HasDarkBand(edge) && edge.rival_px < 0;
+  };
+  if (!banded(*left) || !banded(*right)) return;
+  const auto l = AlongSide(view, left->rival_path_px, *left, true);
+  const auto r = AlongSide(view, right->rival_path_px, *right, false);
+  if (!l || !r) return;
+  *left = *l;
+  *right = *r;
+}
+
+std::optional<LocatedEdge> WithinBand(const BladeView& view, const LocatedEdge& edge, bool left) {
+  if (!HasDarkBand(edge, kFaint) || edge.rival_px > 0) return std::nullopt;
+  return AlongSide(view, edge.rival_path_px, edge, left);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "vision/scissors/blade_view.h"
+
+namespace bladecurve {
+
+// Whether beside the edge another transition could be the blade's border instead, with a dark band
+// between the two: the ground in shadow, or a bevel.
+[[nodiscard]] bool HasDarkBand(const LocatedEdge& edge);
+
+// Of the two sides of a dark band, the inner one if it is the ground in shadow, the outer one if it
+// is metal: by colour, by the ground's pattern, by what the blade's other side and its shank show.
+// Within a band that is either, the edge is in doubt. The edge as it is where it has no band.
+[[nodiscard]] LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left);
+
+// Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
+// shadows, and both borders the bands' inner sides.
+void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right);
+
+// The edge along the inner side of a dark band beside it, however faint, if it is seen there.
+[[nodiscard]] std::optional<LocatedEdge> WithinBand(const BladeView& view,
+                                                    const LocatedEdge& edge,
+                                                    bool left);
+
+}  // namespace bladecurve

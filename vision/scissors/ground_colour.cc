@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/ground_colour.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "vision/edge/colour_border.h"
+#include "vision/parallel.h"
+#include "vision/scissors/consistency.h"
+#include "vision/scissors/scene_guess.h"
+
+namespace bladecurve {
+namespace {
+
+// From a line at which only light changes to the one at which the ground's colour ends; where that
+// line draws the edge back to itself, in colours that show shadows less.
+void LeaveLightAlone(const BladeView& view,
+                     const ReducedColours& colours,
+                     const LocatedEdge& other,
+                     bool left,
+                     LocatedEdge* edge) {
+  constexpr double kFarPx = 1.3, kSearchPx = 4;
+  constexpr double kWay = 0.5;    // of the way there, at least
+  constexpr double kShade = 0.5;  // of the light
+  const double width_px = BladeOf(view.scene(), left).width_px;
+  const auto border = FindColourBorder(colours, view.tone(), *edge, other, width_px);
+  if (!border || std::abs(border->offset_px) < kFarPx) return;
+  const EdgeGuess guess{border->path_px, left, kSearchPx};
+  for (const double shade : {0.0, kShade}) {
+    std::optional<LocatedEdge> again = view.InColoursThenGrey(guess, shade);
+    if (!again || MedianDistance(*again, *edge) < kWay * std::abs(border->offset_px)) continue;
+    *edge = *std::move(again);
+    return;
+  }
+  Doubt(edge, std::abs(border->offset_px));
+}
+
+bool LeavesDoubt(const LocatedEdge& edge) {
+  constexpr double kVaguePx = 0.5;
+  return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
+}
+
+// Whether what is taken for blade is darker than the ground, as shadows are, and the ground may
+// have a colour that would tell them apart.
+bool ShadowsMightPass(const BladeView& view, const BladeEdges& edges) {
+  const bool darker = TypicalContrast(edges.upper) > 0 || TypicalContrast(edges.lower) > 0;
+  return darker && view.ShowsColourAtTop();
+}
+
+}  // namespace
+
+void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges) {
+  constexpr double kLarge = 3e6;  // px
+  const bool costly = static_cast<double>(view.grey().total()) > kLarge;
+  if (plan == Plan::kAsNeeded && costly && !LeavesDoubt(edges->upper) &&
+      !LeavesDoubt(edges->lower) && !ShadowsMightPass(view, *edges))
+    return;
+  const ReducedColours colours = view.Reduced();
+  const BladeEdges found = *edges;
+  ParallelFor(2, [&](int blade) {
+    if (blade == 0) {
+      LeaveLightAlone(view, colours, found.lower, true, &edges->upper);
+    } else {
+      LeaveLightAlone(view, colours, found.upper, false, &edges->lower);
+    }
+  });
+}
+
+}  // namespace bladecurve

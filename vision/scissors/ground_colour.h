@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/scissors/blade_view.h"
+#include "vision/stage_log.h"
+
+namespace bladecurve {
+
+// Both edges are compared with where the ground's colour ends: light changes at shadows' borders
+// and bevels' lines too. An edge at which only light changes is left for the one at which the
+// colour does, or doubted. In large photographs, whose colours take longer to decode than all else
+// takes, only where grey leaves a doubt, or shadows might pass for blades unseen, unless the plan
+// is full.
+void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges);
+
+}  // namespace bladecurve
