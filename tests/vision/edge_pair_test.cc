@@ -55,9 +55,7 @@ struct Seen {
     return options;
   }
 
-  [[nodiscard]] BladeEdges Locate() const {
-    return LocateBlades(photo, scale, scene);
-  }
+  [[nodiscard]] BladeEdges Locate() const { return LocateBlades(photo, scale, scene); }
 
   Photo photo;
   ScaleResult scale;
@@ -333,8 +331,8 @@ TEST(LocateBlades, DoubtAnEdgeWithinABandThatNothingSettles) {
   EXPECT_LT(std::abs(off_px), kWithin * upper.common_sigma_px);
 }
 
-// Grey on grey, a dark band along one edge is a bevel if the same side of the shank, which would cast
-// the same shadow, casts none.
+// Grey on grey, a dark band along one edge is a bevel if the same side of the shank, which would
+// cast the same shadow, casts none.
 TEST(LocateBlades, TakeABandForABevelThatIsNoShadowOfTheShanks) {
   constexpr double kBandPx = 22, kBlurPx = 0.8;
   constexpr uchar kGround = 200, kBand = 90, kPlate = 165;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vision/scissors/distal_end.h"
+#include "vision/scissors/followed_step.h"
 
 namespace bladecurve {
 namespace {
@@ -72,6 +73,50 @@ TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
   const auto cap = FitTipCap(picture, EdgeAlong(kEdge), kSearch);
   ASSERT_TRUE(cap);
   EXPECT_NEAR(cap->end_px.x(), kTip - 6, kAlong);
+}
+
+// The blade with its shadow, which a lamp beyond the rings throws ahead of the tip.
+cv::Mat BladeWithShadowAhead(double radius, double ahead_px, double penumbra_px) {
+  constexpr double kGround = 200, kMetal = 110, kShadow = 0.75;  // grey, grey, share of the light
+  const cv::Mat picture = Blade(radius);
+  cv::Mat blade, shadow;
+  picture.convertTo(blade, CV_64F, -1.0 / 120, 200.0 / 120);  // the blade's share of each pixel
+  const cv::Mat ahead = (cv::Mat_<double>(2, 3) << 1, 0, ahead_px, 0, 1, 0);
+  cv::warpAffine(blade, shadow, ahead, blade.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::GaussianBlur(shadow, shadow, {}, penumbra_px);
+  const cv::Mat ground = kGround * (1 - kShadow * shadow);
+  cv::Mat seen = blade * kMetal + ground.mul(1 - blade), grey;
+  seen.convertTo(grey, CV_8U);
+  return grey;
+}
+
+// As sharp as the blade, a dark strip ahead may as well be a bevel.
+TEST(FitTipCap, TellsTheTipFromItsSoftShadow) {
+  constexpr double kRadius = 12, kAheadPx = 16, kAlong = 2;
+  TipSearch search = kSearch;
+  search.tip_px.x() += kAheadPx;
+  const auto cap = [&](double penumbra_px) {
+    return FitTipCap(
+        BladeWithShadowAhead(kRadius, kAheadPx, penumbra_px), EdgeAlong(kEdge), search);
+  };
+  const auto soft = cap(3), sharp = cap(0.1);
+  ASSERT_TRUE(soft && sharp);
+  EXPECT_TRUE(soft->in_shadow);
+  EXPECT_NEAR(soft->end_px.x(), kTip - kRadius, kAlong);
+  EXPECT_FALSE(sharp->in_shadow);
+  EXPECT_NEAR(sharp->end_px.x(), kTip + kAheadPx - kRadius, kAlong);
+}
+
+// The step across the edge goes on along the shadow, which is darker than the blade.
+TEST(FindDistalEnds, LeavesTheBladesSoftShadow) {
+  constexpr double kRadius = 12, kAheadPx = 16, kAlong = 2;
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() += kAheadPx;
+  const DistalEnd end =
+      FindDistalEnds(BladeWithShadowAhead(kRadius, kAheadPx, 3), EdgeAlong(kEdge), search).likely;
+  EXPECT_TRUE(end.arc_seen);
+  EXPECT_GT(end.evidence, 0);
+  EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
 }
 
 TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {

@@ -7,6 +7,9 @@
 #include <cmath>
 #include <optional>
 
+#include "vision/scissors/followed_step.h"
+#include "vision/scissors/tip_arc.h"
+
 namespace bladecurve {
 namespace {
 
@@ -122,7 +125,7 @@ DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap, dou
   DistalEnd end =
       EndAtCap(edge, cap, std::hypot(0.5, std::hypot(cap.scatter_px, 0.25 * cap.radius_px)));
   end.arc_seen = true;
-  end.evidence = cap.step * edge_step < 0 ? 0 : cap.Evidence();
+  end.evidence = cap.step * edge_step < 0 && !cap.in_shadow ? 0 : cap.Evidence();
   return end;
 }
 
@@ -179,13 +182,14 @@ std::optional<TipCap> FindRivalCap(const cv::Mat& grey,
   return ClearCapAt(*step_end_px, grey, edge, presumed);
 }
 
-// Whether the step across the edge goes on far beyond an arc: that is no tip's.
+// Whether the step across the edge goes on far beyond an arc, and not along its shadow: that is no
+// tip's.
 bool GoesOnBeyond(const TipCap& cap,
                   const std::vector<Vector2d>& edge,
                   const TipSearch& presumed,
                   const std::optional<Vector2d>& step_end_px) {
   constexpr double kFar = 1.5;  // times as far as the presumed tip may be off
-  return step_end_px &&
+  return step_end_px && !cap.in_shadow &&
          (*step_end_px - cap.end_px).dot(AlongChord(edge)) > kFar * presumed.reach_px;
 }
 

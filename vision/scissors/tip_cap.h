@@ -14,9 +14,10 @@ namespace bladecurve {
 struct TipCap {
   Eigen::Vector2d end_px;  // where the arc leaves the edge: the distal end
   double radius_px = 0;
-  double scatter_px = 0;  // of the outline seen about the arc, robust
-  int seen = 0;           // lines along which the outline was seen
-  double step = 0;        // grey values beyond it less within, typically
+  double scatter_px = 0;   // of the outline seen about the arc, robust
+  int seen = 0;            // lines along which the outline was seen
+  double step = 0;         // grey values beyond it less within, typically
+  bool in_shadow = false;  // beyond it lies the blade's own shadow
 
   [[nodiscard]] double Evidence() const { return seen * std::abs(step); }
 };
@@ -29,31 +30,14 @@ struct TipSearch {
   double blur_px = 0.9;       // of the edge: beyond a narrow shadow beside it the ground is bright
 };
 
-// Direction of an edge from the crotch towards the tip, its last fifth left out, as that may round
-// off.
-[[nodiscard]] Eigen::Vector2d AlongChord(const std::vector<Eigen::Vector2d>& edge);
-
 // Looks along lines parallel to the cutting edge, within the blade, for where the blade ends, and
 // fits the arc to what they show. It needs no visible edge near the tip: bevels often mirror the
-// background there. `edge` runs from the crotch to about the tip. std::nullopt where too few lines
-// show an end.
+// background there. Where what ends first is followed by a dark strip that ends more softly, that
+// is the blade's shadow. `edge` runs from the crotch to about the tip. std::nullopt where too few
+// lines show an end.
 [[nodiscard]] std::optional<TipCap> FitTipCap(const cv::Mat& grey,
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
-
-// The step across an edge, followed along it.
-struct FollowedStep {
-  // Grey values outside the edge less those inside along its last part, typically; 0 where it does
-  // not stand out.
-  double step = 0;
-  // The last point of the edge, continued, at which there is a step like that. std::nullopt where
-  // it goes on to the picture's border, or stood out nowhere.
-  std::optional<Eigen::Vector2d> end_px;
-};
-
-[[nodiscard]] FollowedStep FollowStep(const cv::Mat& grey,
-                                      const std::vector<Eigen::Vector2d>& edge,
-                                      const TipSearch& search);
 
 // What tips usually are, where no arc shows: a tenth of the blade's width in radius, from the edge
 // continued to `search.tip_px`. Good to about its radius along the edge; `seen` is 0. `edge` holds

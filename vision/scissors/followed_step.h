@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <vector>
+
+#include "vision/scissors/tip_cap.h"
+
+namespace bladecurve {
+
+// The step across an edge, followed along it.
+struct FollowedStep {
+  // Grey values outside the edge less those inside along its last part, typically; 0 where it does
+  // not stand out.
+  double step = 0;
+  // The last point of the edge, continued, at which there is a step like that. std::nullopt where
+  // it goes on to the picture's border, or stood out nowhere.
+  std::optional<Eigen::Vector2d> end_px;
+};
+
+[[nodiscard]] FollowedStep FollowStep(const cv::Mat& grey,
+                                      const std::vector<Eigen::Vector2d>& edge,
+                                      const TipSearch& search);
+
+}  // namespace bladecurve
