@@ -63,7 +63,7 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
 constexpr double kLeastOfScissors = 0.045;
 
 void RefuseJaws(const Pivot& pivot, const Blades& blades) {
-  constexpr double kLeastOverlap = 0.04;  // between those of scissors and of jaws
+  constexpr double kLeastOverlap = 0.03;  // half way between slender scissors and jaws, 0
   if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
   RefuseWhite(blades);
   throw Refused(
