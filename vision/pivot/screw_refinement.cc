@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "vision/parallel.h"
+#include "vision/pivot/screw_evidence.h"
 #include "vision/pivot/screw_field.h"
 #include "vision/pivot/screw_ground.h"
 #include "vision/pivot/screw_profiles.h"
-#include "vision/pivot/screw_search.h"
 
 namespace bladecurve {
 namespace {

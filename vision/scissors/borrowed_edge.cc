@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/borrowed_edge.h"
+
+#include <cmath>
+
+#include "vision/refused.h"
+#include "vision/scissors/edge_difference.h"
+#include "vision/scissors/mirrored_blade.h"
+#include "vision/scissors/mirrored_trace.h"
+
+namespace bladecurve {
+namespace {
+
+// The other blade's edge, mirrored.
+LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
+  LocatedEdge edge = other.edge;
+  for (LocatedEdgePoint& p : edge.points) p = trace.line.Reflected(p);
+  edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot.SigmaPx());
+  edge.ambiguity = kAssumedAmbiguity;
+  edge.rival_px = 0;
+  edge.rival_path_px.clear();
+  return edge;
+}
+
+}  // namespace
+
+void BorrowInnerOne(const MirrorView& view,
+                    const MirrorLine& line,
+                    const Pivot& pivot,
+                    Blades* blades) {
+  if (pivot.screw && IsFaint(*pivot.screw)) return;
+  if (!DifferBeyondPivot(pivot, *blades)) return;
+  const auto [inner, other] = InnerOne(pivot, blades);
+  const MirroredBladeSearch search{view, pivot, other, line};
+  const auto trace = FindMirroredTrace(view, inner, other, line, WayPx(search));
+  if (!trace) return;
+  const LocatedEdge edge = Borrowed(other, *trace, pivot);
+  const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
+  if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
+}
+
+}  // namespace bladecurve

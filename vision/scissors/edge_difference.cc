@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/edge_difference.h"
+
+#include <cmath>
+
+#include "vision/pivot/pivot_geometry.h"
+#include "vision/scissors/consistency.h"
+
+namespace bladecurve {
+
+ChosenBlade OneOf(Blades* blades, bool upper) {
+  return upper ? ChosenBlade{blades->upper, blades->lower}
+               : ChosenBlade{blades->lower, blades->upper};
+}
+
+double AsymmetryOf(const MirrorView& view,
+                   const Pivot& pivot,
+                   const LocatedBlade& a,
+                   const LocatedBlade& b) {
+  return EdgeAsymmetry(SeenFromAbove(view.scale, PairOf(a, b), pivot.point_px), pivot.point_px);
+}
+
+double ShareInPx(double share, const Pivot& pivot, const Blades& blades) {
+  return share * (blades.upper.end.point_px - pivot.point_px).norm();
+}
+
+bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
+  constexpr double kSigmas = 3;
+  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * 2 * pivot.SigmaPx();
+}
+
+bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
+  return blade.on_left ? pivot.asymmetry < 0 : pivot.asymmetry > 0;
+}
+
+ChosenBlade InnerOne(const Pivot& pivot, Blades* blades) {
+  return OneOf(blades, LiesInwards(blades->upper, pivot));
+}
+
+void DoubtVaguerOne(double off_px, Blades* blades) {
+  const bool upper_vaguer = TotalSigma(blades->upper.edge) > TotalSigma(blades->lower.edge);
+  Doubt(&OneOf(blades, upper_vaguer).blade.edge, off_px);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/mirrored_blade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "vision/image/robust_statistics.h"
+#include "vision/pivot/pivot_geometry.h"
+#include "vision/refused.h"
+#include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_pair.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// Whether an edge lies on the side of its blade that faces the gap, no deeper than where a shadow
+// widened what scene finding took for the blade.
+bool FacesGap(const Scene& scene, const LocatedBlade& blade) {
+  constexpr double kWidest = 0.5;      // such a shadow, of that width
+  constexpr std::size_t kEnough = 50;  // places along the edge
+  const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
+  std::vector<double> inwards_px;
+  for (std::size_t i = 0; i < blade.used.size(); i += 1 + blade.used.size() / kEnough) {
+    const LocatedEdgePoint& p = blade.used[i];
+    const auto off = [&](const Vector2d& q) { return (q - p.trend_px).squaredNorm(); };
+    const auto nearest = std::min_element(
+        seen.inner_px.begin(), seen.inner_px.end(), [&](const Vector2d& a, const Vector2d& b) {
+          return off(a) < off(b);
+        });
+    inwards_px.push_back((*nearest - p.trend_px).dot(p.normal));
+  }
+  return Median(std::move(inwards_px)) < kWidest * seen.width_px;
+}
+
+EdgeGuess GuessWithin(const MirroredBladeSearch& search, double search_px) {
+  EdgeGuess guess;
+  for (const LocatedEdgePoint& p : search.other.edge.points) {
+    if (p.inlier) guess.path_px.push_back(search.line.Reflected(p.trend_px));
+  }
+  guess.blade_on_left = !search.other.on_left;
+  guess.search_px = search_px;
+  return guess;
+}
+
+// At least so far aside, and further where the way is long.
+double Widened(const MirroredBladeSearch& search, double search_px) {
+  constexpr double kOfWay = 0.35;
+  return std::max(search_px, kOfWay * WayPx(search));
+}
+
+// The other side of the blade, or a line within it, may lie there too.
+template <typename Look>
+std::optional<RelocatedBlade> IfItFacesGap(const MirroredBladeSearch& search, const Look& look) {
+  auto found = UnlessRefused([&] { return BladeWithEdge(search, look()); });
+  return found && FacesGap(search.view.scene, found->blade) ? std::move(found) : std::nullopt;
+}
+
+}  // namespace
+
+double WayPx(const MirroredBladeSearch& search) {
+  return std::abs(search.pivot.asymmetry) *
+         (search.other.end.point_px - search.pivot.point_px).norm();
+}
+
+double LeftOfDifference(const MirroredBladeSearch& search, const RelocatedBlade& found) {
+  return std::abs(found.asymmetry) / std::abs(search.pivot.asymmetry);
+}
+
+RelocatedBlade BladeWithEdge(const MirroredBladeSearch& search, LocatedEdge edge) {
+  RelocatedBlade found;
+  found.blade.on_left = !search.other.on_left;
+  found.blade.edge = std::move(edge);
+  TrimToFree(search.view.photo, search.view.scene, &found.blade);
+  found.asymmetry = AsymmetryOf(search.view, search.pivot, found.blade, search.other);
+  return found;
+}
+
+std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search,
+                                               double search_px) {
+  return IfItFacesGap(search, [&] {
+    return LocateBladeAlong(
+        search.view.photo, search.view.scale, search.view.scene, GuessWithin(search, search_px));
+  });
+}
+
+std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search, double search_px) {
+  std::optional<LocatedEdge> edge =
+      LocateBladeInShadow(search.view.photo,
+                          search.view.scale,
+                          search.view.scene,
+                          GuessWithin(search, Widened(search, search_px)));
+  if (!edge) return std::nullopt;
+  return IfItFacesGap(search, [&] { return *std::move(edge); });
+}
+
+std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search) {
+  constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
+  constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
+  const bool suspect = AreSuspect(search.pivot.asymmetry);
+  std::optional<RelocatedBlade> found = LookNearMirrored(search, Widened(search, kNearest));
+  if (suspect && found && LeftOfDifference(search, *found) > kSame)  // the line that is doubted
+    found = LookNearMirrored(search, kShortOf * WayPx(search));
+  if (!found || (suspect && LeftOfDifference(search, *found) >= kMuchLess)) return std::nullopt;
+  return AreAlike(found->asymmetry) ? found : std::nullopt;
+}
+
+void Replace(const RelocatedBlade& found, const char* where, LocatedBlade* blade) {
+  *blade = found.blade;
+  blade->moved = where;
+}
+
+void MarkAsAssumed(const MirrorView& view, const Pivot& pivot, LocatedBlade* blade) {
+  if (!KnowsMirror(view, pivot))
+    blade->edge.ambiguity = std::max(blade->edge.ambiguity, kAssumedAmbiguity);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/shadowed_edge.h"
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "vision/pivot/pivot_geometry.h"
+#include "vision/refused.h"
+#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_pair.h"
+#include "vision/scissors/mirrored_blade.h"
+
+namespace bladecurve {
+namespace {
+
+// The blade along the inner side of a band beside its edge that may be a shadow, if it is seen.
+std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlade& blade) {
+  std::optional<LocatedEdge> edge =
+      LocateBladeWithinBand(view.photo, view.scale, view.scene, blade.edge, blade.on_left);
+  if (!edge) return std::nullopt;
+  return UnlessRefused([&] {
+    LocatedBlade within = blade;
+    within.edge = *std::move(edge);
+    TrimToFree(view.photo, view.scene, &within);
+    return within;
+  });
+}
+
+}  // namespace
+
+bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kLeastPx = 1.5;       // a thinner band cannot be told from blur
+  constexpr double kLeastShare = 0.004;  // of the length; blades are ground alike to less
+  constexpr double kLeft = 0.3, kLeftByDoubtful = 0.5;  // of the difference
+  constexpr double kNearest = 1;                        // px
+  constexpr double kSeen = 0.65;  // ambiguity; what texture shows is seen less
+  const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
+  const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
+  if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
+  const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest);
+  if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) return false;
+  if (LeftOfDifference(search, *found) > (IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft))
+    return false;
+  Replace(*found, "inside a shadow, where the other one puts it", &outer);
+  MarkAsAssumed(view, pivot, &outer);
+  return true;
+}
+
+bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kLeft = 0.5;  // of the difference
+  const std::optional<LocatedBlade> upper = WithinBand(view, blades->upper);
+  const std::optional<LocatedBlade> lower = upper ? WithinBand(view, blades->lower) : std::nullopt;
+  if (!lower) return false;
+  const double asymmetry = AsymmetryOf(view, pivot, *upper, *lower);
+  if (std::abs(asymmetry) > kLeft * std::abs(pivot.asymmetry)) return false;
+  blades->upper = *upper;
+  blades->lower = *lower;
+  blades->upper.moved = blades->lower.moved = "to the inner sides of the bands beside both";
+  return true;
+}
+
+}  // namespace bladecurve
