@@ -36,7 +36,6 @@ Overexposure::Overexposure(const PixelBand& band) {
       if (pixel.across > kNear && pixel.across < kFar) ground.Add(pixel.light);
     }
     stretches_.push_back({blade.MostlyWhite(), ground.MostlyWhite()});
-    any_ |= stretches_.back().blade || stretches_.back().ground;
   }
 }
 

@@ -18,7 +18,6 @@ class Overexposure {
   Overexposure() = default;
   explicit Overexposure(const PixelBand& band);
 
-  [[nodiscard]] bool Any() const { return any_; }
   [[nodiscard]] bool OfBlade(int sample) const;
   [[nodiscard]] bool OfGround(int sample) const;
   [[nodiscard]] double Share() const;  // of the path, either side
@@ -32,7 +31,6 @@ class Overexposure {
   };
   [[nodiscard]] const Stretch* At(int sample) const;
 
-  bool any_ = false;
   std::vector<Stretch> stretches_;
 };
 

@@ -249,8 +249,6 @@ class Fitter {
     fit.even =
         std::min({slopes_[kBladeSlope], slopes_[kGroundSlope], slopes_[kGroundBend]}) == kFixed;
     fit.overexposed = Overexposure(band_).Share();
-    fit.noise_blade = noise_.blade;
-    fit.noise_ground = noise_.ground;
     fit.spacing = stride_;
     fit.slices = SolveSlices(kept_, {stride_, noise_.blade, noise_.ground}, windows_);
     for (EdgeSlice& slice : fit.slices) slice.offset_px += offsets_[Index(slice.sample)];

@@ -35,7 +35,6 @@ struct EdgeFit {
   bool even = false;           // light slopes on neither side of it
   double overexposed =
       0;  // share of the path beside which one side is white beyond the picture's range
-  double noise_blade = 0, noise_ground = 0;  // of a pixel, texture included, linear light
 };
 
 // Maximum likelihood of the model of edge_levels.h on the raw pixels beside `start`, which lies

@@ -135,8 +135,6 @@ LocatedEdge PointsFromFit(const EdgeFit& fit) {
   edge.correlation_px = PointsPerIndependentOne(inlying) * spacing_px;
   edge.blur_px = fit.blur_px;
   edge.unbound_blur_px = fit.unbound_blur_px;
-  edge.noise =
-      std::sqrt(0.5 * (fit.noise_blade * fit.noise_blade + fit.noise_ground * fit.noise_ground));
   return edge;
 }
 

@@ -10,7 +10,6 @@ namespace bladecurve {
 // light; a blurred edge found in encoded values is off by 0.15 to 1 px.
 struct ToneCurve {
   std::array<float, 256> linear{};
-  bool measured = false;  // from a marker's known edges; else assumed sRGB
   double gamma_sigma =
       0.15;  // standard uncertainty of the effective exponent; feeds the edges' common offset
 };

@@ -224,7 +224,6 @@ SheetSolution Describe(const SheetProblem& problem,
   const long degrees = solution.surplus + with_prior;
   solution.rms_px = std::sqrt(square_px / static_cast<double>(corners));
   solution.reduced_chi2 = degrees > 0 ? best.cost / static_cast<double>(degrees) : std::nan("");
-  solution.spread_mm = best.x[kSpread];
   AddSigmaPoints(problem, best.x, free, &solution);
   return solution;
 }

@@ -177,7 +177,6 @@ ShankEnd DescribeShank(const Silhouette& silhouette,
                        const Vector2d& point,
                        const Vector2d& shank_crotch) {
   ShankEnd end;
-  end.point = point;
   end.length = (point - shank_crotch).norm();
   double widest = 0;
   for (const double t : {0.75, 0.83, 0.9, 0.95}) {
