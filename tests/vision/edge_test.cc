@@ -442,6 +442,8 @@ TEST(LocateEdge, TellsBlurFromWantOfContrast) {
     EXPECT_EQ(reason([=](double d) { return 60 + 120 * Smooth(d, blur_px); }), Reason::kBlurred);
   EXPECT_EQ(reason([](double d) { return 120 + d; }), Reason::kLowContrast)
       << "light that falls off";
+  EXPECT_EQ(reason([](double d) { return 60 + 120 * Smooth(d - 9, 0.8); }), Reason::kLowContrast)
+      << "a sharp step too far aside to be the edge";
 }
 
 TEST(LocateEdge, RefusesWhatIsTooShort) {

@@ -29,14 +29,18 @@ double TypicalStep(const cv::Mat& grey, const EdgePath& path, double off_px) {
 }  // namespace
 
 bool IsBlurredAway(const cv::Mat& grey, const EdgePath& path) {
-  // Off the path, px. A step blurred by 6 px has half its height at 4, and all of it at 12; one
-  // blurred by 14 px at 24. Light that falls off over the whole picture rises on and on.
-  constexpr double kNear = 2, kFar = 12, kFarther = 24;
+  // Off the path, px. Of its height at 12 px, a step blurred by 6 px reaches a quarter at 2 px and
+  // 0.7 at 6, one blurred by 14 px 0.2 and 0.55; sharp ones aside of the path none or all of it.
+  // Light that falls off over the whole picture rises on and on.
+  constexpr double kNear = 2, kMiddle = 6, kFar = 12, kFarther = 24;
   constexpr double kLeastGrey = 12;
-  constexpr double kSoft = 0.35, kRisesOn = 1.7;
-  const double far = TypicalStep(grey, path, kFar), near = TypicalStep(grey, path, kNear);
-  return std::abs(far) > kLeastGrey && near / far < kSoft &&
-         TypicalStep(grey, path, kFarther) / far < kRisesOn;
+  constexpr double kSoft = 0.35, kLeastHalfWay = 0.45, kMostHalfWay = 0.85, kRisesOn = 1.7;
+  const double far = TypicalStep(grey, path, kFar);
+  if (std::abs(far) < kLeastGrey) return false;
+  const auto of_far = [&](double off_px) { return TypicalStep(grey, path, off_px) / far; };
+  const double half_way = of_far(kMiddle);
+  return of_far(kNear) < kSoft && half_way > kLeastHalfWay && half_way < kMostHalfWay &&
+         of_far(kFarther) < kRisesOn;
 }
 
 }  // namespace bladecurve
