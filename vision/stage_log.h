@@ -30,7 +30,6 @@ class StageLog {
                     Plan plan = Plan::kAsNeeded);
 
   [[nodiscard]] Plan plan() const { return plan_; }
-  [[nodiscard]] bool runs_all() const { return plan_ == Plan::kFull; }
 
   void Ran(const std::string& stage,
            const std::string& why);  // the time since the last record is its time

@@ -53,6 +53,11 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   Pivot jaws = PivotSeen(0);
   jaws.overlap = 0.01;
   EXPECT_EQ(ReasonFor(jaws), Reason::kNotScissors);
+  jaws.overlap = 0.02;
+  EXPECT_EQ(ReasonFor(jaws), Reason::kNotScissors);
+  jaws.overlap = 0.035;
+  EXPECT_EQ(ReasonFor(jaws), Reason::kFitFailed) << "slender scissors";
+  jaws.overlap = 0.01;
   jaws.overlap_sigma = 0.05;  // it may be scissors after all
   EXPECT_EQ(ReasonFor(jaws), Reason::kFitFailed);
   Pivot vague = PivotSeen(0);
@@ -165,7 +170,7 @@ TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
   DoubtLaterLook(scene, pivot, &again);
   const double length_px = (found.upper.end.point_px - pivot.point_px).norm();
   ASSERT_GT(length_px, 0);
-  EXPECT_NEAR(again.upper.edge.common_sigma_px, 0.01 * length_px, 0.003 * length_px);
+  EXPECT_NEAR(again.upper.edge.common_sigma_px, 0.01 * length_px, 1e-3 * length_px);
   EXPECT_EQ(again.lower.edge.common_sigma_px, again.upper.edge.common_sigma_px);
 }
 

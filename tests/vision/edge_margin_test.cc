@@ -86,9 +86,18 @@ TEST(BandBeside, LiesBetweenAnEdgeAndItsRival) {
   LocatedEdge edge = UprightEdge();
   edge.rival_px = -12;
   const cv::Mat grey = PictureOf([](double d) { return WithMargin(d, 12); });
-  const Band band = BandBeside(grey, testing::GammaCurve(1), edge);
-  EXPECT_EQ(band.width_px, 12);
-  EXPECT_NEAR(band.light, kDark / 255, 0.02);
+  const auto band = BandBeside(grey, testing::GammaCurve(1), edge);
+  ASSERT_TRUE(band);
+  EXPECT_EQ(band->width_px, 12);
+  EXPECT_NEAR(band->light, kDark / 255, 0.02);
+  edge.rival_px = 1000;
+  EXPECT_FALSE(BandBeside(grey, testing::GammaCurve(1), edge)) << "out of the picture";
+}
+
+// Cut off at black, light says nothing of what is darker.
+TEST(MayLieAlong, TakesOneBlackForAnother) {
+  const cv::Mat grey = PictureOf([](double d) { return Smooth(d) * kGround; });
+  EXPECT_TRUE(MayLieAlong(grey, testing::GammaCurve(1), UprightEdge(), {20, 0}));
 }
 
 TEST(MayLieAlong, SeesStripsAsDarkAndAThirdAsWideOnEitherSide) {

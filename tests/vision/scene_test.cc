@@ -596,6 +596,27 @@ TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   }
 }
 
+// Members cross: a blade's own shank lies behind the joint, on the other side of the axis, and its
+// side that faces as the cutting edge does is the far one.
+TEST(SceneFinder, ShowsTheSideOfEachShankThatFacesAsTheCuttingEdgeDoes) {
+  const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
+  StageLog log;
+  const Scene scene = SceneFinder(photo, {}, {}, &log).Likeliest();
+  const Eigen::Vector2d axis = (scene.crotch_px - scene.shank_crotch_px).normalized();
+  const Eigen::Vector2d to_right(-axis.y(), axis.x());  // seen towards the tips, y down
+  for (const SceneBlade* blade : {&scene.left, &scene.right}) {
+    const double own_side = blade == &scene.left ? 1 : -1;
+    EXPECT_LT(own_side * (blade->tip_px - scene.pivot_px).dot(to_right), 0);
+    ASSERT_GT(blade->shank_px.size(), 20U);
+    for (const Eigen::Vector2d& p : blade->shank_px) {
+      EXPECT_LT((p - scene.shank_crotch_px).dot(axis), 1);
+      EXPECT_GT(own_side * (p - scene.pivot_px).dot(to_right), 0.3 * scene.shank_width_px);
+    }
+    EXPECT_GT((blade->shank_px.back() - scene.pivot_px).norm(),
+              (blade->shank_px.front() - scene.pivot_px).norm());
+  }
+}
+
 TEST(SceneFinder, ShowsTheSameScissorsAtEveryLook) {
   const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
   StageLog log;
@@ -614,27 +635,33 @@ TEST(SceneFinder, ShowsTheSameScissorsAtEveryLook) {
   }
 }
 
-// The second look passes over all that the likeliest method shows, the third over one mask of it.
-TEST(LadderResult, IsChosenAnewWithoutMethodsAndMasks) {
+// The second look is by all other methods, the third by the other masks of the likeliest one.
+TEST(LadderResult, IsChosenAnewByOtherMethodsAndMasks) {
   const auto seen = [](const std::string& method, double quality) {
     Candidate c = MaskWithTurn(0);
     c.method = method;
     c.pair.quality = quality;
+    c.strength = 1;
+    c.agreeing = 1;
     c.mask = cv::Mat(1, 1, CV_8UC1);
     return c;
   };
   LadderResult all;
   all.closed = true;
-  all.seen = {seen("grey", 0.9), seen("grey", 0.8), seen("flood", 0.7)};
-  all.best = all.seen[0];
-  const LadderResult other_method = WithoutMethod(all, "grey");
-  EXPECT_EQ(other_method.best.method, "flood");
-  EXPECT_EQ(other_method.seen.size(), 1U);
-  const LadderResult other_mask = WithoutMaskOfBest(all);
-  EXPECT_EQ(other_mask.best.mask.data, all.seen[1].mask.data);
-  EXPECT_EQ(other_mask.seen.size(), 2U);
-  EXPECT_TRUE(other_method.closed && other_mask.closed);
-  EXPECT_EQ(WithoutMethod(other_method, "flood").best.pair.quality, 0);
+  all.seen = {seen("flood", 0.6),
+              seen("flood", 0.7),
+              seen("grey", 0.6),
+              seen("grey", 0.9),
+              seen("grey", 0.8)};
+  all.best = all.seen[3];
+  const LadderResult other_methods = ByOtherMethods(all, "grey");
+  EXPECT_EQ(other_methods.best.mask.data, all.seen[1].mask.data);
+  EXPECT_EQ(other_methods.seen.size(), 2U);
+  const LadderResult other_masks = ByOtherMasks(all);
+  EXPECT_EQ(other_masks.best.mask.data, all.seen[4].mask.data);
+  EXPECT_EQ(other_masks.seen.size(), 2U);
+  EXPECT_TRUE(other_methods.closed && other_masks.closed);
+  EXPECT_EQ(ByOtherMethods(other_methods, "flood").best.pair.quality, 0);
 }
 
 // The waist of open scissors is wider than the members that cross there.

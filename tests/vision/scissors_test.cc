@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "process_folder.h"
 #include "vision/measure.h"
+#include "vision/photo/photo.h"
 #include "vision/photo/png_writer.h"
+#include "vision/refused.h"
 #include "vision/render/render.h"
 #include "vision/render/synthetic_scene.h"
 
@@ -29,6 +33,34 @@ TEST(LocateScissors, MeasuresInAnotherMaskWhatTheLikeliestWasRefusedFor) {
   }));
   EXPECT_EQ(std::count(result.warnings.begin(), result.warnings.end(), "scene_doubtful"), 1);
   EXPECT_LT((result.pivot_px - TruthOf(spec).pivot_px).norm(), 3 * result.pivot_sigma_px);
+}
+
+// Jaws, however they are looked at.
+TEST(LocateScissors, GivesUpAfterTheLastLookForTheFirstReason) {
+  SceneSpec spec;
+  spec.width = 1000;
+  spec.height = 750;
+  spec.camera.mm_per_px = 0.25;
+  spec.scissors.inclination = spec.scissors.bow_mm = 0;
+  const std::filesystem::path file = ProcessFolder() / "jaws.png";
+  WritePng(file, RenderScene(spec).bgr);
+  const Photo photo = Photo::Load(file);
+  ScaleOptions options;
+  options.mm_per_px = spec.camera.mm_per_px;
+  const ScaleResult scale = FindScale(photo, options);
+  StageLog log;
+  SceneFinder finder(photo, scale.markers, {}, &log);
+  try {
+    (void)LocateScissors({photo, scale, {}}, &finder, &log);
+    ADD_FAILURE() << "measured jaws";
+  } catch (const Refused& refused) {
+    EXPECT_EQ(refused.reason(), Reason::kNotScissors);
+  }
+  std::vector<std::string> refusals;
+  for (const StageRecord& record : log.records())
+    if (record.stage == "scene-again") refusals.push_back(record.why);
+  ASSERT_EQ(refusals.size(), SceneFinder::kLooks - 1);
+  EXPECT_NE(refusals.front().find("jaws"), std::string::npos) << refusals.front();
 }
 
 }  // namespace

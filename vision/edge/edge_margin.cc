@@ -13,12 +13,12 @@
 namespace bladecurve {
 namespace {
 
-// Typical light at a distance from an edge, positive out of the blade; 0 beyond the picture. Not
-// near the crotch, where the other blade is close.
-double TypicalLight(const cv::Mat& grey,
-                    const ToneCurve& tone,
-                    const LocatedEdge& edge,
-                    double across_px) {
+// Typical light at a distance from an edge, positive out of the blade. Not near the crotch, where
+// the other blade is close. std::nullopt beyond the picture.
+std::optional<double> TypicalLight(const cv::Mat& grey,
+                                   const ToneCurve& tone,
+                                   const LocatedEdge& edge,
+                                   double across_px) {
   constexpr double kFirst = 0.15;      // of the points
   constexpr std::size_t kEnough = 60;  // places along the edge
   const std::size_t count = edge.points.size(), stride = 1 + count / kEnough;
@@ -29,7 +29,7 @@ double TypicalLight(const cv::Mat& grey,
     if (const auto at = LightAt(grey, tone, point.trend_px + across_px * point.normal))
       light.push_back((*at)[0]);
   }
-  return light.empty() ? 0 : Median(std::move(light));
+  return light.empty() ? std::nullopt : std::optional(Median(std::move(light)));
 }
 
 constexpr double kNearestPx = 2;  // from the edge, whose blur ends there
@@ -100,7 +100,9 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   constexpr double kWidest = 0.5;        // of the blade,
   constexpr double kLeastWidestPx = 10;  // but no less
   constexpr double kGroundPx = 4, kGroundEndPx = 10;
-  const Across light_at = [&](double across) { return TypicalLight(grey, tone, edge, across); };
+  const Across light_at = [&](double across) {
+    return TypicalLight(grey, tone, edge, across).value_or(0);
+  };
   std::vector<double> ground;
   for (double across = kGroundPx; across <= kGroundEndPx; ++across)
     ground.push_back(light_at(across));
@@ -110,8 +112,11 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
 }
 
-Band BandBeside(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge) {
-  return {std::abs(edge.rival_px), TypicalLight(grey, tone, edge, 0.5 * edge.rival_px)};
+std::optional<Band> BandBeside(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const LocatedEdge& edge) {
+  const auto light = TypicalLight(grey, tone, edge, 0.5 * edge.rival_px);
+  return light ? std::optional(Band{std::abs(edge.rival_px), *light}) : std::nullopt;
 }
 
 bool MayLieAlong(const cv::Mat& grey,
@@ -119,11 +124,15 @@ bool MayLieAlong(const cv::Mat& grey,
                  const LocatedEdge& edge,
                  const Band& band) {
   constexpr double kAsWide = 0.35, kBlurPx = 3;  // of the width; the strip's two steps
-  constexpr double kAsLight = 1.4;               // a factor
+  constexpr double kAsLight = 1.4;               // a factor,
+  constexpr double kDarkest = 0.004;             // beyond one grey level of sRGB
   const double least_px = std::max(1.0, kAsWide * band.width_px - kBlurPx);
   double alike_px = 0;
   for (double across = -band.width_px - kBlurPx; across <= band.width_px + kBlurPx; ++across) {
-    const bool alike = WithinFactor(TypicalLight(grey, tone, edge, across), band.light, kAsLight);
+    const auto light = TypicalLight(grey, tone, edge, across);
+    if (!light) return true;
+    const bool alike =
+        WithinFactor(std::max(*light, kDarkest), std::max(band.light, kDarkest), kAsLight);
     alike_px = alike ? alike_px + 1 : 0;
     if (alike_px >= least_px) return true;
   }

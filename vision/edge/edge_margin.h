@@ -27,13 +27,17 @@ struct Margin {
 // What lies between an edge and its rival.
 struct Band {
   double width_px = 0;
-  double light = 0;  // linear
+  double light = 0;  // linear, half way between the two
 };
 
-[[nodiscard]] Band BandBeside(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge);
+// std::nullopt out of the picture.
+[[nodiscard]] std::optional<Band> BandBeside(const cv::Mat& grey,
+                                             const ToneCurve& tone,
+                                             const LocatedEdge& edge);
 
-// Whether a strip as light as the band, and a third as wide at least, lies along another edge: if it
-// does not, and that faces the same way, the band is no shadow.
+// Whether a strip about as light as the band, and a third as wide, its blurred sides left out, lies
+// along another edge on either side: if it does not, and that faces the same way, the band is no
+// shadow. True where the picture ends.
 [[nodiscard]] bool MayLieAlong(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const LocatedEdge& edge,

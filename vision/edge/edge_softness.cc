@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "vision/edge/edge_softness.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -29,17 +31,23 @@ double TypicalStep(const cv::Mat& grey, const EdgePath& path, double off_px) {
 }  // namespace
 
 bool IsBlurredAway(const cv::Mat& grey, const EdgePath& path) {
-  // Off the path, px. Of its height at 12 px, a step blurred by 6 px reaches a quarter at 2 px and
-  // 0.7 at 6, one blurred by 14 px 0.2 and 0.55; sharp ones aside of the path none or all of it.
-  // Light that falls off over the whole picture rises on and on.
-  constexpr double kNear = 2, kMiddle = 6, kFar = 12, kFarther = 24;
-  constexpr double kLeastGrey = 12;
-  constexpr double kSoft = 0.35, kLeastHalfWay = 0.45, kMostHalfWay = 0.85, kRisesOn = 1.7;
+  // Off the path, px, and the share of the step at kFar that a step in the path, blurred by 5 to 15
+  // px, reaches there. A sharp step aside of the path reaches none of it or all.
+  constexpr double kFar = 12, kLeastGrey = 12;
+  struct Reached {
+    double off_px, least, most;
+  };
+  constexpr Reached kBlurred[] = {{2, 0.05, 0.35}, {4, 0.2, 0.65}, {6, 0.4, 0.85}};
+  constexpr double kFarther = 24, kRisesOn = 1.7;  // light that falls off all over the picture
   const double far = TypicalStep(grey, path, kFar);
   if (std::abs(far) < kLeastGrey) return false;
   const auto of_far = [&](double off_px) { return TypicalStep(grey, path, off_px) / far; };
-  const double half_way = of_far(kMiddle);
-  return of_far(kNear) < kSoft && half_way > kLeastHalfWay && half_way < kMostHalfWay &&
+  return std::all_of(std::begin(kBlurred),
+                     std::end(kBlurred),
+                     [&](const Reached& reached) {
+                       const double share = of_far(reached.off_px);
+                       return share > reached.least && share < reached.most;
+                     }) &&
          of_far(kFarther) < kRisesOn;
 }
 

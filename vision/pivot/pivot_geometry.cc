@@ -212,9 +212,9 @@ Estimate BehindByWaist(const Scene& scene, const EdgeMirror& mirror) {
 }
 
 Estimate BehindByGeometry(const Scene& scene, const EdgeMirror& mirror) {
-  constexpr double kLeastOverlap = 0.045, kMostOverlap = 0.14;  // see EdgeOverlap
+  constexpr double kMostOverlap = 0.14;
   const Estimate waist = BehindByWaist(scene, mirror);
-  const double nearest = BehindForOverlap(mirror, kLeastOverlap);
+  const double nearest = BehindForOverlap(mirror, kUsualOverlap);
   if (mirror.length_px <= 0 || !std::isfinite(nearest)) return waist;
   return Truncated(waist, nearest, BehindForOverlap(mirror, kMostOverlap));
 }

@@ -56,8 +56,8 @@ struct SheetSolution {
   // The pose moved by plus and minus kPoseShift standard deviations along each principal axis of
   // its covariance.
   std::vector<std::pair<SheetPose, SheetPose>> shifted;
-  SheetPose rival;         // the sheet tilted the other way, solved for as well
-  double rival_share = 0;  // its probability, given the corners
+  SheetPose rival;                    // the sheet tilted the other way, solved for as well
+  double rival_share = 0;             // its probability, given the corners
   std::vector<double> square_rms_px;  // of each square's corners, in the problem's order
   double rms_px = 0;                  // of the corners' coordinates
   double reduced_chi2 = 1;            // 1: corners scatter as they should; NaN without surplus

@@ -197,8 +197,8 @@ std::vector<Vector2d> AheadOf(std::vector<Vector2d> arc,
   return arc;
 }
 
-// A shank's outer side from the joint on, of a blade's far side that goes on to the shank's end; the
-// second half, where rings begin, left out.
+// A shank's outer side from the joint on, of a blade's far side that goes on to the shank's end;
+// the second half, where rings begin, left out.
 std::vector<Vector2d> ShankBehind(const std::vector<Vector2d>& arc,
                                   const Vector2d& shank_crotch,
                                   const Vector2d& axis) {
@@ -223,10 +223,9 @@ void DescribeBlades(const Silhouette& silhouette,
   std::reverse(inner_first.begin(), inner_first.end());
   std::vector<Vector2d> outer_first = outline.Arc(ends.shank_second_at, ends.tip_first_at);
   std::reverse(outer_first.begin(), outer_first.end());
-  const std::vector<Vector2d> outer_second =
-      outline.Arc(ends.tip_second_at, ends.shank_first_at);
-  pair->first = DescribeBlade(
-      silhouette, std::move(inner_first), AheadOf(outer_first, pair->crotch, axis));
+  const std::vector<Vector2d> outer_second = outline.Arc(ends.tip_second_at, ends.shank_first_at);
+  pair->first =
+      DescribeBlade(silhouette, std::move(inner_first), AheadOf(outer_first, pair->crotch, axis));
   pair->second = DescribeBlade(silhouette,
                                outline.Arc(at.gap->far, ends.tip_second_at),
                                AheadOf(outer_second, pair->crotch, axis));

@@ -242,10 +242,11 @@ Scene SceneFinder::Likeliest() const {
 
 void SceneFinder::LookAgain() {
   if (++looks_ == 2) {
-    const LadderResult all = ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_);
-    *ladder_ = WithoutMethod(all, first_->best.method);
+    const LadderResult all =
+        first_->climbed ? *first_ : ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_);
+    *ladder_ = ByOtherMethods(all, first_->best.method);
   } else {
-    *ladder_ = WithoutMaskOfBest(*first_);
+    *ladder_ = ByOtherMasks(*first_);
   }
   RefuseUnlessUsable(*ladder_, hints_);
 }

@@ -20,8 +20,8 @@ namespace bladecurve {
 struct SceneBlade {
   std::vector<Eigen::Vector2d> inner_px;  // from near the crotch to the tip: the cutting edge
   std::vector<Eigen::Vector2d> outer_px;  // from beside the pivot to the tip, as the mask shows it
-  // The side of the blade's own shank that faces as the cutting edge does, from the joint on; may be
-  // empty.
+  // The side of the blade's own shank that faces as the cutting edge does, from the joint on; may
+  // be empty.
   std::vector<Eigen::Vector2d> shank_px;
   Eigen::Vector2d tip_px;
   double width_px = 0;  // half way along

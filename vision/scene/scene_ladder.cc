@@ -135,7 +135,13 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
   return result;
 }
 
-const char* WhyRun(bool full, const char* need) { return full ? "everything is to run" : need; }
+// Whether blades were found that could be measured.
+bool ShowsWholeBlades(const LadderResult& result) {
+  const BladePair& pair = result.best.pair;
+  return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
+}
+
+const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
 
 // Fills in what all rungs saw.
 LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
@@ -171,6 +177,7 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   }
   result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
   log->Ran("scene-regions", WhyRun(full, "the flood ran into the blades"));
+  result.climbed = true;
   return result;
 }
 
@@ -186,11 +193,6 @@ LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
 }
 
 }  // namespace
-
-bool ShowsWholeBlades(const LadderResult& result) {
-  const BladePair& pair = result.best.pair;
-  return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
-}
 
 double TurnAtJoint(const LadderResult& result) {
   std::vector<double> turns;
@@ -219,12 +221,15 @@ LadderResult ClimbLadder(const Photo& photo,
   return result;
 }
 
-LadderResult WithoutMethod(const LadderResult& result, const std::string& method) {
+LadderResult ByOtherMethods(const LadderResult& result, const std::string& method) {
   return Keeping(result, [&](const Candidate& c) { return c.method != method; });
 }
 
-LadderResult WithoutMaskOfBest(const LadderResult& result) {
-  return Keeping(result, [&](const Candidate& c) { return c.mask.data != result.best.mask.data; });
+LadderResult ByOtherMasks(const LadderResult& result) {
+  const Candidate& best = result.best;
+  return Keeping(result, [&](const Candidate& c) {
+    return c.method == best.method && c.mask.data != best.mask.data;
+  });
 }
 
 }  // namespace bladecurve

@@ -19,10 +19,8 @@ struct LadderResult {
   bool several = false;         // two good pairs in different places
   bool closed = false;          // something looks like closed scissors, in several masks of a rung
   std::vector<Candidate> seen;  // by all rungs, the best among them
+  bool climbed = false;         // to the top
 };
-
-// Whether blades were found that could be measured.
-[[nodiscard]] bool ShowsWholeBlades(const LadderResult& result);
 
 // Median over the masks that show the same blades well enough, rad: a single one may lose the turn
 // where a ring merges with a shadow or a shank is not seen to its end.
@@ -36,8 +34,9 @@ struct LadderResult {
                                        Plan plan,
                                        StageLog* log);
 
-// What other methods show best, of all that was seen; and what other masks do.
-[[nodiscard]] LadderResult WithoutMethod(const LadderResult& result, const std::string& method);
-[[nodiscard]] LadderResult WithoutMaskOfBest(const LadderResult& result);
+// Of all that was seen what other methods than the best one's show best; and what other masks of
+// that method do.
+[[nodiscard]] LadderResult ByOtherMethods(const LadderResult& result, const std::string& method);
+[[nodiscard]] LadderResult ByOtherMasks(const LadderResult& result);
 
 }  // namespace bladecurve

@@ -58,7 +58,7 @@ class BladeView {
   [[nodiscard]] std::optional<LocatedEdge> OuterSide(bool left) const;
   [[nodiscard]] std::optional<LocatedEdge> ShankSide(bool left) const;
 
-  // Along an edge or outer side of a blade.
+  // Along an edge or outer side of a blade; std::nullopt where there is none.
   [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const;
 
   // BGR, the whole photograph; and at half the resolution, at which colours are stored anyway. Of a
@@ -84,7 +84,7 @@ class BladeView {
   mutable cv::Mat colours_;
 };
 
-// What an edge's points tell about where it runs, for comparison with another along it.
+// What an edge's points tell about where it runs, for comparison with another along it. 1/px^2.
 [[nodiscard]] double Information(const LocatedEdge& edge);
 
 // Share of the points that count.
@@ -92,7 +92,7 @@ class BladeView {
 
 [[nodiscard]] std::vector<Eigen::Vector2d> TrendOf(const LocatedEdge& edge);
 
-// Between one edge and another along it.
+// Between one edge and another along it, px.
 [[nodiscard]] double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other);
 
 // Ambiguity below which no other transition matches an edge's.

@@ -59,12 +59,8 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
                     "scissors wider");
 }
 
-// Of the overlap at the pivot; jaws have 0.03 and less.
-constexpr double kLeastOfScissors = 0.045;
-
 void RefuseJaws(const Pivot& pivot, const Blades& blades) {
-  constexpr double kLeastOverlap = 0.03;  // half way between slender scissors and jaws, 0
-  if (pivot.overlap + pivot.overlap_sigma >= kLeastOverlap) return;
+  if (pivot.overlap + pivot.overlap_sigma >= kSlenderestOverlap) return;
   RefuseWhite(blades);
   throw Refused(
       Reason::kNotScissors,
@@ -99,7 +95,7 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseUnknownPivot(pivot, blades);
 }
 
-bool PassByPivot(const Pivot& pivot) { return pivot.overlap >= kLeastOfScissors; }
+bool PassByPivot(const Pivot& pivot) { return pivot.overlap >= kUsualOverlap; }
 
 bool IsClear(const LocatedEdge& edge) {
   constexpr double kClear = 0.5;  // ambiguity

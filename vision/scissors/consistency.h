@@ -14,7 +14,7 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
-// Whether the edges pass by it as far as those of all scissors do; jaws' meet there.
+// Whether the edges pass by it as far as those of usual scissors do; jaws' meet there.
 [[nodiscard]] bool PassByPivot(const Pivot& pivot);
 
 // Whether an edge by itself is in no doubt: no other border beside it, and known to a pixel; or in

@@ -65,7 +65,8 @@ bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left) {
   constexpr double kSameWay = 0.94;  // cosine
   const std::optional<LocatedEdge> shank = view.ShankSide(left);
   if (!shank || TypicalNormal(*shank).dot(TypicalNormal(edge)) < kSameWay) return false;
-  return !MayLieAlong(view.grey(), view.tone(), *shank, BandBeside(view.grey(), view.tone(), edge));
+  const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge);
+  return band && !MayLieAlong(view.grey(), view.tone(), *shank, *band);
 }
 
 // Faint bands are not worth the colours.

@@ -214,9 +214,8 @@ std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
 DistalEnds FindDistalEnds(const cv::Mat& grey,
                           const std::vector<Vector2d>& edge,
                           const EndSearch& search) {
-  constexpr std::size_t kFewest = 12;
   constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
-  if (edge.size() < kFewest) {
+  if (edge.size() < kFewestEdgePoints) {
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
   }

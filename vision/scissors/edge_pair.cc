@@ -64,17 +64,18 @@ std::size_t CountAlongOther(const LocatedEdge& edge, const LocatedEdge& other) {
   constexpr double kLonger = 3, kLeastPx = 20;
   constexpr std::size_t kEnough = 100;  // places along the edge
   const double sine = std::abs(Cross(DirectionOfDistalHalf(edge), DirectionOfDistalHalf(other)));
+  const double crossing_px = kLeastPx + kLonger * kTogetherPx / std::max(sine, 1e-6);
+  const double spacing_px = (edge.points.back().trend_px - edge.points.front().trend_px).norm() /
+                            static_cast<double>(edge.points.size());
   const std::size_t stride = 1 + edge.points.size() / kEnough;
   std::size_t count = 0, together = 0;
   for (std::size_t i = 0; i < edge.points.size(); i += stride) {
-    if (DistanceTo(other, edge.points[i].trend_px) > kTogetherPx) continue;
-    together += stride;
-    count = std::min(i + stride, edge.points.size());
+    const bool near = DistanceTo(other, edge.points[i].trend_px) < kTogetherPx;
+    together = near ? together + stride : 0;
+    if (spacing_px * static_cast<double>(together) > crossing_px)
+      count = std::min(i + stride, edge.points.size());
   }
-  const double spacing_px = (edge.points.back().trend_px - edge.points.front().trend_px).norm() /
-                            static_cast<double>(edge.points.size());
-  const double length_px = spacing_px * static_cast<double>(together);
-  return length_px > kLeastPx + kLonger * kTogetherPx / std::max(sine, 1e-6) ? count : 0;
+  return count;
 }
 
 // std::nullopt where the other edge does not lie on this one, or too little is left of it.
@@ -88,7 +89,9 @@ std::optional<LocatedEdge> BeyondOther(const BladeView& view,
   const std::vector<Vector2d> path = TrendOf(edge);
   const EdgeGuess guess{{path.begin() + count, path.end()}, left, kSearchPx};
   if (guess.path_px.size() < 2) return std::nullopt;
-  return UnlessRefused([&] { return view.InGreyOrAnyColours(guess); });
+  auto beyond = UnlessRefused([&] { return view.InGreyOrAnyColours(guess); });
+  if (beyond) KeepRival(edge, &*beyond);
+  return beyond;
 }
 
 // Where the edges lie on each other before they part, as along the top blade's edge over the other
@@ -114,7 +117,7 @@ bool Glares(const LocatedEdge& edge, const LocatedEdge& other) {
 bool IsTooSoft(const LocatedEdge& edge, const LocatedEdge& other, double most_blur_px) {
   constexpr double kSofter = 1.5;  // ratio; print and blades lie at about one distance
   return std::isfinite(most_blur_px) &&
-         edge.blur_px > kSofter * std::max(other.blur_px, most_blur_px);
+         edge.blur_px > kSofter * std::max(most_blur_px, BlurOr(other, most_blur_px));
 }
 
 // What the other blade tells of an edge's blur: a glaring blade's once more, as sharp as the other;

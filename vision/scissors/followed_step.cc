@@ -27,8 +27,7 @@ std::optional<double> StepAcross(const cv::Mat& grey,
     const double off = deviation_px * (kNear + (kFar - kNear) * place / (kPlaces - 1));
     for (const double depth : {-off, off}) {
       const Vector2d p = axis.At(position, depth);
-      if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
-        return std::nullopt;
+      if (!LiesWithin(grey, p)) return std::nullopt;
       step += (depth < 0 ? 1 : -1) * Bilinear<uchar>(grey, p);
     }
   }

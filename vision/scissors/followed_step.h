@@ -21,6 +21,8 @@ struct FollowedStep {
   std::optional<Eigen::Vector2d> end_px;
 };
 
+// grey: CV_8UC1. `search` gives the blade's side and the edge's blur. Of fewer than 12 points
+// nothing is said.
 [[nodiscard]] FollowedStep FollowStep(const cv::Mat& grey,
                                       const std::vector<Eigen::Vector2d>& edge,
                                       const TipSearch& search);

@@ -14,6 +14,7 @@
 #include "vision/image/cross.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
+#include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
 namespace {
@@ -91,7 +92,7 @@ void TrimToFree(const Photo& photo,
                 const std::vector<Vector2d>& beyond) {
   std::vector<Vector2d> points = InlierPoints(blade->edge);
   points.insert(points.end(), beyond.begin(), beyond.end());
-  const SceneBlade& seen = blade->on_left ? scene.left : scene.right;
+  const SceneBlade& seen = BladeOf(scene, blade->on_left);
   const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
   TipSearch tip{seen.tip_px, reach_px, seen.width_px, blade->on_left};
   tip.blur_px = BlurOr(blade->edge, tip.blur_px);

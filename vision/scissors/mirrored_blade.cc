@@ -12,6 +12,7 @@
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/edge_pair.h"
+#include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
 namespace {
@@ -23,7 +24,7 @@ using Eigen::Vector2d;
 bool FacesGap(const Scene& scene, const LocatedBlade& blade) {
   constexpr double kWidest = 0.5;      // such a shadow, of that width
   constexpr std::size_t kEnough = 50;  // places along the edge
-  const SceneBlade& seen = blade.on_left ? scene.left : scene.right;
+  const SceneBlade& seen = BladeOf(scene, blade.on_left);
   std::vector<double> inwards_px;
   for (std::size_t i = 0; i < blade.used.size(); i += 1 + blade.used.size() / kEnough) {
     const LocatedEdgePoint& p = blade.used[i];

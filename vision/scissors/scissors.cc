@@ -87,12 +87,12 @@ void CheckAgainstEachOther(const MirrorView& view, const Pivot& pivot, Blades* b
   RefuseContestedHead(pivot, view.scale);
   RefuseUnlikeEdges(pivot, view.scale, *blades);
   RefuseUnconfirmedScene(view.scene, pivot);
-  DoubtLaterLook(view.scene, pivot, blades);
   CutWhereEdgesPart(view, pivot, blades);
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
   DoubtSofterEdge(blades);
   DoubtUnlikePrint(view.scale, blades);
+  DoubtLaterLook(view.scene, pivot, blades);
 }
 
 void SettleEnds(const MirrorView& view, const Pivot& pivot, Blades* blades) {

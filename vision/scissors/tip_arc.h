@@ -14,7 +14,7 @@ inline constexpr std::size_t kFewestEdgePoints = 12;
 // off.
 [[nodiscard]] Eigen::Vector2d AlongChord(const std::vector<Eigen::Vector2d>& edge);
 
-// The cutting edge, continued over the tip: positions along its chord, offsets into the blade.
+// The cutting edge, continued over the tip: positions along its chord, offsets into the blade, px.
 struct EdgeAxis {
   Eigen::Vector2d origin, along, inwards;
   Eigen::Vector4d cubic;  // offset of the edge over the share of its length
@@ -31,14 +31,14 @@ struct EdgeAxis {
   [[nodiscard]] double PositionOf(const Eigen::Vector2d& place_px) const;
 };
 
-// A place at which something ends on a line parallel to the edge, and by how much light steps there
-// towards the tip, grey values.
+// A place at which something ends on a line parallel to the edge, px, and by how much light steps
+// there towards the tip, grey values.
 struct EndSeen {
   double depth = 0, position = 0;
   double step = 0;
 };
 
-// An arc that leaves the edge tangentially at `start`, a position.
+// An arc that leaves the edge tangentially at `start`, a position. px.
 struct TipArc {
   double start = 0, radius = 0;
   double score = 0;  // lines explained less lines contradicted, less what the edge denies
@@ -47,8 +47,8 @@ struct TipArc {
   double step = 0;  // typical
 };
 
-// The arc of at most so large a radius that explains most of the ends seen. `followed`: the edge's
-// points, which deny an arc where they go on straight. seen is 0 where none explains enough.
+// The arc of at most so large a radius, px, that explains most of the ends seen. `followed`: the
+// edge's points, which deny an arc where they go on straight. seen is 0 where none explains enough.
 [[nodiscard]] TipArc FitTipArc(const std::vector<EndSeen>& ends,
                                const std::vector<EndSeen>& followed,
                                double largest_radius);

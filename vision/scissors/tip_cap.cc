@@ -39,8 +39,7 @@ std::optional<Line> LineAt(
   Line line{from, {}};
   for (double t = from; t <= to; t += kSpacing) {
     const Vector2d p = axis.At(t, depth);
-    if (p.x() < 1 || p.y() < 1 || p.x() > grey.cols - 2 || p.y() > grey.rows - 2)
-      return std::nullopt;
+    if (!LiesWithin(grey, p)) return std::nullopt;
     line.light.push_back(Bilinear<uchar>(grey, p));
   }
   return line;

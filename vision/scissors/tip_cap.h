@@ -33,8 +33,8 @@ struct TipSearch {
 // Looks along lines parallel to the cutting edge, within the blade, for where the blade ends, and
 // fits the arc to what they show. It needs no visible edge near the tip: bevels often mirror the
 // background there. Where what ends first is followed by a dark strip that ends more softly, that
-// is the blade's shadow. `edge` runs from the crotch to about the tip. std::nullopt where too few
-// lines show an end.
+// is the blade's shadow. grey: CV_8UC1. `edge` runs from the crotch to about the tip. std::nullopt
+// where too few lines show an end.
 [[nodiscard]] std::optional<TipCap> FitTipCap(const cv::Mat& grey,
                                               const std::vector<Eigen::Vector2d>& edge,
                                               const TipSearch& search);
