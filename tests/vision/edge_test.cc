@@ -412,9 +412,9 @@ TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
       edge.points.begin(), edge.points.end(), [](const LocatedEdgePoint& p) { return !p.inlier; }));
 }
 
-Reason RefusalOf(const cv::Mat& grey, const EdgeGuess& guess) {
+Reason RefusalOf(const cv::Mat& grey, const EdgeGuess& guess, const EdgeOptions& options = {}) {
   try {
-    (void)LocateEdge(grey, testing::GammaCurve(1), guess);
+    (void)LocateEdge(grey, testing::GammaCurve(1), guess, options);
   } catch (const Refused& refused) {
     return refused.reason();
   }
@@ -440,6 +440,13 @@ TEST(LocateEdge, TellsBlurFromWantOfContrast) {
   };
   for (const double blur_px : {6, 9, 12})
     EXPECT_EQ(reason([=](double d) { return 60 + 120 * Smooth(d, blur_px); }), Reason::kBlurred);
+  EdgeOptions beside_sharp_print;
+  beside_sharp_print.most_blur_px = 0.9;
+  const cv::Mat blurred = Banded(line, [](double d) { return 60 + 120 * Smooth(d, 9); });
+  EXPECT_EQ(
+      RefusalOf(testing::Stored(blurred, 1, 1, random), GuessOf(line, 0, 0), beside_sharp_print),
+      Reason::kLowContrast)
+      << "a shadow's border";
   EXPECT_EQ(reason([](double d) { return 120 + d; }), Reason::kLowContrast)
       << "light that falls off";
   for (const double aside_px : {7, 9, 11}) {

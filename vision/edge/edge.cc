@@ -56,9 +56,12 @@ struct Picture {
 
 void RefuseIfUnseen(double share_seen, double least_share, const Picture& picture) {
   if (share_seen >= least_share) return;
-  if (IsBlurredAway(picture.grey, picture.rough)) {
+  constexpr double kSharpPrintPx = 3;  // beside which a soft line is a shadow's border
+  if (!(picture.options.most_blur_px < kSharpPrintPx) &&
+      IsBlurredAway(picture.grey, picture.rough)) {
     throw Refused(Reason::kBlurred,
-                  "edge: too soft to be located; focus on the blades or hold the camera still");
+                  "edge: too soft to be located; focus on the blades, hold the camera still, or "
+                  "keep shadows off them");
   }
   throw Refused(Reason::kLowContrast,
                 "edge: the blade stands out from its background along only " +
