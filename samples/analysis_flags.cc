@@ -249,24 +249,26 @@ void AddFitFlags(CLI::App& command, AnalysisFlags* flags) {
       ->check(CLI::IsMember({"none", "huber", "cauchy", "tukey"}));
 }
 
-void AddRunFlags(CLI::App& command, AnalysisFlags* flags) {
-  command.add_option("--plan", flags->plan, "auto: leave out what a scene does not need; full")
-      ->check(CLI::IsMember({"auto", "full"}));
-  command.add_option("--debug",
-                     flags->debug,
-                     "Write a picture of every stage into this folder; of several photographs into "
-                     "a folder of it each");
-  command.add_option(
-      "--threads", flags->threads, "How many photographs, or parts of one, at a time");
-}
-
 }  // namespace
 
 void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags) {
   AddScaleFlags(command, flags);
   AddHintFlags(command, flags);
   AddFitFlags(command, flags);
-  AddRunFlags(command, flags);
+  command.add_option("--plan", flags->plan, "auto: leave out what a scene does not need; full")
+      ->check(CLI::IsMember({"auto", "full"}));
+}
+
+void AddDebugFlag(CLI::App& command, AnalysisFlags* flags) {
+  command.add_option("--debug",
+                     flags->debug,
+                     "Write a picture of every stage into this folder; of several photographs into "
+                     "a folder of it each");
+}
+
+void AddThreadsFlag(CLI::App& command, AnalysisFlags* flags) {
+  command.add_option(
+      "--threads", flags->threads, "How many photographs, or parts of one, at a time");
 }
 
 AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags) {
@@ -285,10 +287,7 @@ std::vector<std::string> GivenArguments(const CLI::App& command) {
   // A fresh command knows which of the flags are analysis flags, and their order.
   CLI::App known;
   AnalysisFlags unused;
-  AddScaleFlags(known, &unused);
-  AddHintFlags(known, &unused);
-  AddFitFlags(known, &unused);
-  known.add_option("--plan", unused.plan);
+  AddAnalysisFlags(known, &unused);
   std::vector<std::string> arguments;
   for (const CLI::Option* option : std::as_const(known).get_options()) {
     const std::string name = option->get_name();

@@ -31,15 +31,17 @@ struct AnalysisFlags {
   std::optional<std::string> debug, threads;
 };
 
+// Those that change a result; the two others do not.
 void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags);
+void AddDebugFlag(CLI::App& command, AnalysisFlags* flags);
+void AddThreadsFlag(CLI::App& command, AnalysisFlags* flags);
 
 // Throws std::invalid_argument naming the flag for a value that cannot be, and for two scales at
 // once.
 [[nodiscard]] AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags);
 
-// The flags given to `command` that change a result, as "--name=value" in a fixed order: equal
-// arguments, equal results. --threads and --debug are left out; files (--camera, --card) stand by
-// name.
+// The analysis flags given to `command`, as "--name=value" in a fixed order: equal arguments, equal
+// results. Files (--camera, --card) stand by name.
 [[nodiscard]] std::vector<std::string> GivenArguments(const CLI::App& command);
 
 // The reverse. Throws std::invalid_argument for an unknown flag or a value that cannot be.

@@ -169,6 +169,7 @@ void AddCatalog(CLI::App& app, int* exit_code) {
   catalog->add_option("-o", command->out, "Folder for the results (default: SOURCE.catalog)");
   catalog->add_flag("--overlays", command->overlays, "Write an overlay picture of each photograph");
   AddAnalysisFlags(*catalog, &command->analysis);
+  AddThreadsFlag(*catalog, &command->analysis);
   AddPlan(*catalog);
   AddRun(*catalog, exit_code);
   AddMergeAndStatus(*catalog);

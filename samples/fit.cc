@@ -170,6 +170,8 @@ void AddFit(CLI::App& app, int* exit_code) {
   fit->add_option("PHOTO", command->photos, "The same scissors, at one or several angles")
       ->required();
   AddAnalysisFlags(*fit, &command->analysis);
+  AddDebugFlag(*fit, &command->analysis);
+  AddThreadsFlag(*fit, &command->analysis);
   fit->add_option("-o,--output",
                   command->name,
                   "Write NAME.blade.json and NAME.overlay.png (default: the photograph's name)");

@@ -17,14 +17,16 @@
 namespace bladecurve {
 namespace {
 
+// The innermost: of `catalog plan` it is plan.
 const CLI::App& ChosenCommand(const CLI::App& app) {
   const auto chosen = app.get_subcommands();
-  return chosen.empty() ? app : *chosen.front();
+  return chosen.empty() ? app : ChosenCommand(*chosen.front());
 }
 
 std::string CommandLineName(const CLI::App& app) {
-  const CLI::App& command = ChosenCommand(app);
-  return &command == &app ? "bladecurve" : "bladecurve " + command.get_name();
+  const auto chosen = app.get_subcommands();
+  const std::string name = app.get_parent() == nullptr ? "bladecurve" : app.get_name();
+  return chosen.empty() ? name : name + " " + CommandLineName(*chosen.front());
 }
 
 std::vector<std::string> FlagNames(const CLI::App& command) {

@@ -98,9 +98,10 @@ void AddValidate(CLI::App& app, int* exit_code) {
   const auto command = std::make_shared<ValidateCommand>();
   CLI::App* sub = app.add_subcommand(
       "validate", "Render photographs with known truth, measure them, and compare");
-  sub->add_option("BLADE",
-                  command->blade,
-                  "Draw this .blade.json into its own photographs instead, and compare");
+  CLI::Option* blade =
+      sub->add_option("BLADE",
+                      command->blade,
+                      "Draw this .blade.json into its own photographs instead, and compare");
   sub->add_option("--scenes", command->scenes, "How many; every tenth one must be refused")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -118,6 +119,9 @@ void AddValidate(CLI::App& app, int* exit_code) {
       ->check(CLI::Range(1, 1024));
   sub->add_flag("--quiet", command->quiet, "No progress");
   sub->add_flag("--no-times", command->no_times, "Leave times out: same seed, same bytes");
+  for (const char* of_scenes :
+       {"--scenes", "--seed", "--difficulty", "--csv", "--plot", "--threads", "--no-times"})
+    blade->excludes(sub->get_option(of_scenes));
   sub->callback([command, exit_code] { *exit_code = RunValidate(*command); });
 }
 

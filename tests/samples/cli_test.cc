@@ -81,6 +81,10 @@ TEST(CommandLine, FlagsThatWouldBePassedOverAreNamed) {
   ExpectWrongUse({"fit", "a.jpg", "--mm-per-px", "0.1", "--plane-height-mm", "2"},
                  "--mm-per-px has no use for it");
   ExpectWrongUse({"fit", "a.jpg", "--dpi", "600", "--camera", "c.json"}, "--dpi has no use for it");
+  ExpectWrongUse({"validate", "a.blade.json", "--csv", "a.csv"}, "BLADE excludes --csv");
+  ExpectWrongUse({"catalog", "photos", "--debug", "d"}, "unknown flag --debug");
+  ExpectWrongUse({"catalog", "plan", "photos", "--threads", "2"},
+                 "bladecurve catalog plan: unknown flag --threads (");
 }
 
 TEST(CommandLine, OutputsThatCannotBeAreNamedBeforeAnyWork) {
