@@ -14,9 +14,8 @@ namespace bladecurve {
 // Where the edges do not, one of them is looked for anew, trimmed, and pivot->asymmetry says how
 // alike the two are then:
 // - a lost one, where the other puts it, if it is as clear there as the other;
-// - of edges in a view of known tilt (markers), from a little difference on, the outer one inside
-// of
-//   it, where a shadow begins that accounts for the difference;
+// - of edges in a view of known tilt (markers), from a little difference on, the outer one further
+//   in, where a shadow begins that accounts for the difference;
 // - both, at the inner sides of the bands beside them, if those mirror each other;
 // - the one that stands out more clearly where the other puts it, or alone is seen there, further
 //   out than it was, and not less surely if the pivot may account for the difference; if neither
