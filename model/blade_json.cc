@@ -203,8 +203,7 @@ std::string StatusOfJson(const Json& record) {
 // "units": "px" for a curve that was measured without a scale.
 bool PixelsOfJson(const Json& units) {
   const std::string word = Word(units, "units");
-  if (word != "mm" && word != "px")
-    Complain("units", "is \"" + word + "\"; it must be mm or px");
+  if (word != "mm" && word != "px") Complain("units", "is \"" + word + "\"; it must be mm or px");
   return word == "px";
 }
 
