@@ -259,18 +259,6 @@ void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags) {
       ->check(CLI::IsMember({"auto", "full"}));
 }
 
-void AddDebugFlag(CLI::App& command, AnalysisFlags* flags) {
-  command.add_option("--debug",
-                     flags->debug,
-                     "Write a picture of every stage into this folder; of several photographs into "
-                     "a folder of it each");
-}
-
-void AddThreadsFlag(CLI::App& command, AnalysisFlags* flags) {
-  command.add_option(
-      "--threads", flags->threads, "How many photographs, or parts of one, at a time");
-}
-
 AnalysisSettings SettingsFromFlags(const AnalysisFlags& flags) {
   AnalysisSettings settings;
   settings.measure.scale = ScaleFromFlags(flags);

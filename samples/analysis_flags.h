@@ -31,10 +31,8 @@ struct AnalysisFlags {
   std::optional<std::string> debug, threads;
 };
 
-// Those that change a result; the two others do not.
+// Those that change a result: not --debug and --threads.
 void AddAnalysisFlags(CLI::App& command, AnalysisFlags* flags);
-void AddDebugFlag(CLI::App& command, AnalysisFlags* flags);
-void AddThreadsFlag(CLI::App& command, AnalysisFlags* flags);
 
 // Throws std::invalid_argument naming the flag for a value that cannot be, and for two scales at
 // once.

@@ -108,6 +108,10 @@ void AddRunFlags(CLI::App& command, CatalogCommand* flags) {
   command.add_flag("--overlays", flags->overlays, "Write an overlay picture of each photograph");
 }
 
+void AddThreadsFlag(CLI::App& command, CatalogCommand* flags) {
+  command.add_option("--threads", flags->analysis.threads, "How many instruments at a time");
+}
+
 // catalog plan DIR|MANIFEST -o OUT
 void AddPlan(CLI::App& catalog) {
   const auto command = std::make_shared<CatalogCommand>();
@@ -126,7 +130,7 @@ void AddRun(CLI::App& catalog, int* exit_code) {
   const auto command = std::make_shared<CatalogCommand>();
   CLI::App* run = catalog.add_subcommand("run", "Work through this share of the plan");
   run->add_option("OUT", command->out, "A folder that 'plan' made")->required();
-  run->add_option("--threads", command->analysis.threads, "How many instruments at a time");
+  AddThreadsFlag(*run, command.get());
   AddRunFlags(*run, command.get());
   run->callback([command, exit_code] {
     *exit_code = Run(command->out, *command, ChosenShard(command->shard));
@@ -169,7 +173,7 @@ void AddCatalog(CLI::App& app, int* exit_code) {
   catalog->add_option("-o", command->out, "Folder for the results (default: SOURCE.catalog)");
   catalog->add_flag("--overlays", command->overlays, "Write an overlay picture of each photograph");
   AddAnalysisFlags(*catalog, &command->analysis);
-  AddThreadsFlag(*catalog, &command->analysis);
+  AddThreadsFlag(*catalog, command.get());
   AddPlan(*catalog);
   AddRun(*catalog, exit_code);
   AddMergeAndStatus(*catalog);

@@ -170,8 +170,12 @@ void AddFit(CLI::App& app, int* exit_code) {
   fit->add_option("PHOTO", command->photos, "The same scissors, at one or several angles")
       ->required();
   AddAnalysisFlags(*fit, &command->analysis);
-  AddDebugFlag(*fit, &command->analysis);
-  AddThreadsFlag(*fit, &command->analysis);
+  fit->add_option("--debug",
+                  command->analysis.debug,
+                  "Write a picture of every stage into this folder; of several photographs into a "
+                  "folder of it each");
+  fit->add_option(
+      "--threads", command->analysis.threads, "How many photographs, or parts of one, at a time");
   fit->add_option("-o,--output",
                   command->name,
                   "Write NAME.blade.json and NAME.overlay.png (default: the photograph's name)");

@@ -111,7 +111,7 @@ void AddValidate(CLI::App& app, int* exit_code) {
   sub->add_option("--difficulty",
                   command->difficulty,
                   "Which range scenes are drawn from: clean, standard, hard or sun")
-      ->check(CLI::IsMember({"clean", "standard", "hard", "sun"}))
+      ->check(CLI::IsMember(Difficulties()))
       ->capture_default_str();
   sub->add_option("--csv", command->csv, "One line a scene; '-': standard output, no table");
   sub->add_option("--plot", command->plot, "Work-precision plot, FILE.svg");

@@ -20,12 +20,11 @@ struct Levels {
 };
 
 std::vector<Levels> SomeLevels(const EdgeFit& fit) {
-  constexpr double kDarkest = 0.004;  // one grey level of sRGB
   std::vector<Levels> levels;
   for (size_t i = 0; i < fit.slices.size(); i += kStride) {
     const EdgeSlice& slice = fit.slices[i];
-    levels.push_back({std::clamp(slice.ground - slice.contrast, kDarkest, 1.0),
-                      std::clamp(slice.ground, kDarkest, 1.0)});
+    levels.push_back({std::clamp(slice.ground - slice.contrast, kDarkestLight, 1.0),
+                      std::clamp(slice.ground, kDarkestLight, 1.0)});
   }
   return levels;
 }

@@ -124,15 +124,14 @@ bool MayLieAlong(const cv::Mat& grey,
                  const LocatedEdge& edge,
                  const Band& band) {
   constexpr double kAsWide = 0.35, kBlurPx = 3;  // of the width; the strip's two steps
-  constexpr double kAsLight = 1.4;               // a factor,
-  constexpr double kDarkest = 0.004;             // beyond one grey level of sRGB
+  constexpr double kAsLight = 1.4;               // a factor
   const double least_px = std::max(1.0, kAsWide * band.width_px - kBlurPx);
   double alike_px = 0;
   for (double across = -band.width_px - kBlurPx; across <= band.width_px + kBlurPx; ++across) {
     const auto light = TypicalLight(grey, tone, edge, across);
     if (!light) return true;
-    const bool alike =
-        WithinFactor(std::max(*light, kDarkest), std::max(band.light, kDarkest), kAsLight);
+    const bool alike = WithinFactor(
+        std::max(*light, kDarkestLight), std::max(band.light, kDarkestLight), kAsLight);
     alike_px = alike ? alike_px + 1 : 0;
     if (alike_px >= least_px) return true;
   }

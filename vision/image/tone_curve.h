@@ -14,6 +14,9 @@ struct ToneCurve {
       0.15;  // standard uncertainty of the effective exponent; feeds the edges' common offset
 };
 
+// One grey level of sRGB: what is darker is as dark as far as a picture tells.
+inline constexpr double kDarkestLight = 0.004;
+
 // IEC 61966-2-1.
 [[nodiscard]] ToneCurve SrgbToneCurve();
 

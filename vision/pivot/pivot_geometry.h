@@ -57,12 +57,13 @@ struct EdgeMirror {
 // all that a pivot aside or a slanted view adds. NaN where too little of them lies abreast to tell.
 [[nodiscard]] double EdgeUnlikeness(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
+// EdgeOverlap of scissors, usually and at least; below, they are jaws.
+inline constexpr double kUsualOverlap = 0.045, kSlenderestOverlap = 0.03;
+
 // How far the two edges, continued, pass by the pivot on the other blade's side: mean of the two
 // distances over the length of the blades. Blades that shear overlap by 0.055 to 0.125 (Mayo,
 // Metzenbaum, iris; straight and curved), slender rendered ones by 0.03; the jaws of clamps,
 // forceps and needle holders meet, and do not: about 0.
-inline constexpr double kUsualOverlap = 0.045;      // of scissors, at least
-inline constexpr double kSlenderestOverlap = 0.03;  // below, they are jaws
 [[nodiscard]] double EdgeOverlap(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
 // A quantity and its standard uncertainty.

@@ -223,14 +223,16 @@ void DescribeBlades(const Silhouette& silhouette,
   std::reverse(inner_first.begin(), inner_first.end());
   std::vector<Vector2d> outer_first = outline.Arc(ends.shank_second_at, ends.tip_first_at);
   std::reverse(outer_first.begin(), outer_first.end());
-  const std::vector<Vector2d> outer_second = outline.Arc(ends.tip_second_at, ends.shank_first_at);
-  pair->first =
-      DescribeBlade(silhouette, std::move(inner_first), AheadOf(outer_first, pair->crotch, axis));
+  std::vector<Vector2d> outer_second = outline.Arc(ends.tip_second_at, ends.shank_first_at);
+  std::vector<Vector2d> shank_first = ShankBehind(outer_second, *pair->shank_crotch, axis);
+  std::vector<Vector2d> shank_second = ShankBehind(outer_first, *pair->shank_crotch, axis);
+  pair->first = DescribeBlade(
+      silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair->crotch, axis));
   pair->second = DescribeBlade(silhouette,
                                outline.Arc(at.gap->far, ends.tip_second_at),
-                               AheadOf(outer_second, pair->crotch, axis));
-  pair->first.shank = ShankBehind(outer_second, *pair->shank_crotch, axis);
-  pair->second.shank = ShankBehind(outer_first, *pair->shank_crotch, axis);
+                               AheadOf(std::move(outer_second), pair->crotch, axis));
+  pair->first.shank = std::move(shank_first);
+  pair->second.shank = std::move(shank_second);
 }
 
 std::optional<BladePair> PairAt(const Silhouette& silhouette,

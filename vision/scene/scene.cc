@@ -219,16 +219,15 @@ SceneFinder::SceneFinder(const Photo& photo,
       markers_(markers),
       hints_(hints),
       log_(log),
-      first_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log->plan(), log))),
-      ladder_(std::make_unique<LadderResult>(*first_)) {
-  RefuseUnlessUsable(*ladder_, hints_);
+      first_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log->plan(), log))) {
+  RefuseUnlessUsable(*first_, hints_);
 }
 
 SceneFinder::~SceneFinder() = default;
 
 Scene SceneFinder::Likeliest() const {
-  RefuseOtherInstruments(*ladder_, hints_);
-  Scene scene = SceneFrom(ladder_->best);
+  RefuseOtherInstruments(Shown(), hints_);
+  Scene scene = SceneFrom(Shown().best);
   scene.second_look = looks_ > 1;
   if (hints_.pivot_px) {
     scene.pivot_px = *hints_.pivot_px;
@@ -236,19 +235,23 @@ Scene SceneFinder::Likeliest() const {
   }
   if (scene.IsDoubtful()) scene.warnings.push_back("scene_doubtful");
   log_->Ran("trace", "edges followed on the small picture");
-  if (log_->wants_pictures()) log_->Picture("scene", DrawScene(ladder_->best, scene));
+  if (log_->wants_pictures()) log_->Picture("scene", DrawScene(Shown().best, scene));
   return scene;
 }
 
 void SceneFinder::LookAgain() {
-  if (++looks_ == 2) {
-    const LadderResult all =
-        first_->climbed ? *first_ : ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_);
-    *ladder_ = ByOtherMethods(all, first_->best.method);
+  const auto by_other_methods = [&](const LadderResult& all) {
+    return ByOtherMethods(all, first_->best.method);
+  };
+  if (++looks_ > 2) {
+    later_ = std::make_unique<LadderResult>(ByOtherMasks(*first_));
+  } else if (first_->climbed) {
+    later_ = std::make_unique<LadderResult>(by_other_methods(*first_));
   } else {
-    *ladder_ = ByOtherMasks(*first_);
+    later_ = std::make_unique<LadderResult>(
+        by_other_methods(ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_)));
   }
-  RefuseUnlessUsable(*ladder_, hints_);
+  RefuseUnlessUsable(Shown(), hints_);
 }
 
 }  // namespace bladecurve

@@ -74,8 +74,10 @@ class SceneFinder {
   std::vector<SeenMarker> markers_;
   StoredHints hints_;
   StageLog* log_;
-  std::unique_ptr<LadderResult> first_, ladder_;  // at the first look, and now
+  std::unique_ptr<const LadderResult> first_, later_;  // what the looks showed; later_ may be empty
   int looks_ = 1;
+
+  [[nodiscard]] const LadderResult& Shown() const { return later_ ? *later_ : *first_; }
 };
 
 }  // namespace bladecurve

@@ -30,6 +30,7 @@ BladeView::BladeView(const Photo& photo, const ScaleResult& scale, const Scene& 
 }
 
 std::optional<LocatedEdge> BladeView::InGrey(const EdgeGuess& guess) const {
+  if (guess.path_px.size() < 2) return std::nullopt;
   return UnlessRefused([&] { return LocateEdge(grey(), tone_, guess, options_); });
 }
 
@@ -86,13 +87,11 @@ std::optional<LocatedEdge> BladeView::InShadow(const EdgeGuess& guess, Shadow sh
 }
 
 std::optional<LocatedEdge> BladeView::OuterSide(bool left) const {
-  const EdgeGuess side = OuterSideOf(scene_, left);
-  return side.path_px.size() < 2 ? std::nullopt : InGrey(side);
+  return InGrey(OuterSideOf(scene_, left));
 }
 
 std::optional<LocatedEdge> BladeView::ShankSide(bool left) const {
-  const EdgeGuess side = ShankSideOf(scene_, left);
-  return side.path_px.size() < 2 ? std::nullopt : InGrey(side);
+  return InGrey(ShankSideOf(scene_, left));
 }
 
 std::optional<Margin> BladeView::MarginOf(const LocatedEdge& edge, bool left) const {

@@ -33,7 +33,8 @@ class BladeView {
   [[nodiscard]] const ToneCurve& tone() const { return tone_; }
   [[nodiscard]] const EdgeOptions& options() const { return options_; }
 
-  // The edge along `guess` in grey, where it is seen; with a bound on its blur, if print shows one.
+  // The edge along `guess` in grey, where that has two points and it is seen; with a bound on its
+  // blur, if print shows one.
   [[nodiscard]] std::optional<LocatedEdge> InGrey(const EdgeGuess& guess) const;
 
   // Where grey hides the edge, or shows it so faintly that colours place it twice as well, in the
