@@ -177,7 +177,7 @@ void Normalize(const RimShape& shape, const VectorXd& plain, std::vector<RimMatc
 
 void MatchInGrain(const RimProfiles& profiles, RimMatches& matches) {
   constexpr double kLeastPlain = 0.5;  // of the rim; less is lit from one side, its level is no use
-  constexpr Index kPlaces = 64;        // of the rim with a filter of their own
+  constexpr Index kPlaces = 32;        // of the rim with a filter of their own
   const double amplitude = MedianOf(AmplitudesOf(matches));
   if (!(amplitude > 0)) return;
   const RimShape shape = WithSlope(profiles, matches.shape, amplitude);

@@ -80,19 +80,6 @@ std::optional<FoundRim> Octave::Judge(const RimEllipse& start_px) const {
   return Rate(*fit, steepest);
 }
 
-std::vector<FoundRim> Octave::Polished(std::vector<FoundRim> rims, double most_evidence) const {
-  constexpr double kPromising = -2;  // evidence from which on a second look may find a head
-  constexpr double kMostGain = 15;   // of evidence by polishing
-  if (rims.empty()) return {};
-  FoundRim best = rims.front();
-  if (best.evidence > kPromising && best.evidence > most_evidence - kMostGain) {
-    best = Polish(best);
-    rims.push_back(best);
-  }
-  if (best.one_sided) rims.clear();
-  return rims;
-}
-
 std::optional<RimFit> Octave::FitNear(const RimEllipse& start) const {
   const double radius = start.MeanRadius();
   return FitRim(fine_.grey, start, {std::max(2.5, 0.2 * radius), std::max(1.5, 0.12 * radius)});

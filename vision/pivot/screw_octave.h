@@ -27,10 +27,9 @@ class Octave {
   // admits.
   [[nodiscard]] std::optional<FoundRim> Judge(const RimEllipse& start_px) const;
 
-  // The rims, the best one polished unless another octave has one so much better that this cannot
-  // help. None where the best is round on one side only: a tip, a corner.
-  [[nodiscard]] std::vector<FoundRim> Polished(std::vector<FoundRim> rims,
-                                               double most_evidence) const;
+  // The fit may have stopped at a rim that shares only an arc with the head's: starts on all sides
+  // of it decide.
+  [[nodiscard]] FoundRim Polish(const FoundRim& found) const;
 
  private:
   // In pixels of the fine window, these two and what Rate takes.
@@ -40,10 +39,6 @@ class Octave {
   // What speaks for a rim; so does the steepest circle hereabouts if it is the rim.
   [[nodiscard]] std::optional<FoundRim> Rate(const RimFit& fit,
                                              const SteepestCircle& hereabouts) const;
-
-  // The fit may have stopped at a rim that shares only an arc with the head's: starts on all sides
-  // of it decide.
-  [[nodiscard]] FoundRim Polish(const FoundRim& found) const;
 
   ScrewSearch search_;
   ScaledWindow coarse_, fine_;

@@ -123,8 +123,8 @@ void SmoothColumns(const double* middle,
   Eigen::Array<double, kColumns, 1> sum = Eigen::Map<const decltype(sum)>(middle);
   const double *after = middle, *before = middle;
   for (const double weight : weights) {
-    sum += weight * Eigen::Map<const decltype(sum)>(after += stride);
-    sum += weight * Eigen::Map<const decltype(sum)>(before -= stride);
+    sum += weight * (Eigen::Map<const decltype(sum)>(after += stride) +
+                     Eigen::Map<const decltype(sum)>(before -= stride));
   }
   Eigen::Map<decltype(sum)>{out} = sum;
 }

@@ -16,6 +16,7 @@
 namespace bladecurve {
 namespace {
 
+constexpr double kSettledPx = 0.05;  // of change: from here on all profiles are taken
 constexpr double kShrink = 0.8;  // of the profiles from one iteration to the next
 // Shifts further off are something else than the rim. Where the scatter is known place by place,
 // clean rims need not lose their larger errors.
@@ -97,8 +98,9 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
   RimFit fit{start, Eigen::Matrix2d::Identity()};
   RimProfiles profiles;
   double half_px = options.first_half_px;
+  bool settling = true;  // half the profiles will do
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    const bool settling = 2 * iteration < options.iterations;  // half the profiles will do
+    settling = settling && 2 * iteration < options.iterations;
     profiles =
         SampleProfiles(picture,
                        fit.rim,
@@ -124,8 +126,10 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
     fit.center_covariance = update.center_covariance;
     if (!settling) RateSupport(matches->each, update, start_radius, fit);
     if (!settling && fit.support < options.hopeless_support) return std::nullopt;
-    if (!settling && half_px <= options.last_half_px && update.change.norm() < options.converged_px)
-      break;
+    const bool narrowed = half_px <= options.last_half_px;
+    const double last_change = update.change.norm();
+    if (!settling && narrowed && last_change < options.converged_px) break;
+    settling = settling && !(narrowed && last_change < kSettledPx);
     half_px = std::max(options.last_half_px, kShrink * half_px);
   }
   fit.one_sided = OneSided(profiles);

@@ -90,6 +90,29 @@ std::vector<std::vector<FoundRim>> JudgeAll(const Octaves& octaves) {
   return found;
 }
 
+// Whether polishing may make a rim better than the best one of all.
+bool MayGain(const FoundRim& rim, const FoundRim& best) {
+  constexpr double kPromising = -2;  // evidence from which on a second look may find a head
+  constexpr double kMostGain = 15;   // of evidence or preference
+  return rim.evidence > kPromising && rim.evidence > best.evidence - kMostGain &&
+         (rim.preference > best.preference - kMostGain || !OfOneHead(best.fit.rim, rim.fit.rim));
+}
+
+// The rims of an octave, best first, and the best one polished where that may help. None where it
+// is round on one side only: a tip, a corner.
+std::vector<FoundRim> Polished(const Octave& octave,
+                               std::vector<FoundRim> rims,
+                               const FoundRim& best_of_all) {
+  if (rims.empty()) return {};
+  FoundRim best = rims.front();
+  if (MayGain(best, best_of_all)) {
+    best = octave.Polish(best);
+    rims.push_back(best);
+  }
+  if (best.one_sided) rims.clear();
+  return rims;
+}
+
 }  // namespace
 
 bool OfOneHead(const RimEllipse& a, const RimEllipse& b) {
@@ -106,14 +129,14 @@ std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
     return std::make_unique<const Octave>(grey, search, radii[static_cast<std::size_t>(i)]);
   });
   std::vector<std::vector<FoundRim>> judged = JudgeAll(octaves);
-  double most_evidence = 0;
+  FoundRim best;
   for (std::vector<FoundRim>& rims : judged) {
     PutBestFirst(rims);
-    if (!rims.empty()) most_evidence = std::max(most_evidence, rims.front().evidence);
+    if (!rims.empty() && rims.front().evidence > best.evidence) best = rims.front();
   }
   const auto rims = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
     const auto octave = static_cast<std::size_t>(i);
-    return octaves[octave]->Polished(std::move(judged[octave]), most_evidence);
+    return Polished(*octaves[octave], std::move(judged[octave]), best);
   });
   std::vector<FoundRim> all;
   for (const std::vector<FoundRim>& octave : rims)

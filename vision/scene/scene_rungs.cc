@@ -20,10 +20,10 @@ namespace {
 
 // In units of the background's scatter. Below 2 it is all background, above 64 nothing is left of
 // most blades. The likely ones first.
-constexpr double kThresholds[] = {8, 16, 4, 24, 6, 12, 3, 32, 2, 48, 64};
+constexpr double kThresholds[] = {8, 16, 4, 24, 32, 6, 12, 3, 2, 48, 64};
 
 // So many thresholds show the same good blades that more of them would change nothing.
-constexpr int kEnough = 5;
+constexpr int kEnough = 4;
 
 bool Settled(const std::vector<Candidate>& candidates) {
   constexpr double kGood = 0.9;
