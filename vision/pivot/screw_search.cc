@@ -90,19 +90,24 @@ std::vector<std::vector<FoundRim>> JudgeAll(const Octaves& octaves) {
   return found;
 }
 
-// Whether polishing may make a rim better than the best one of all.
-bool MayGain(const FoundRim& rim, const FoundRim& best) {
+// Whether polishing may make a rim better than the best ones of all octaves: than others by its
+// evidence, than others of the same head by its preference.
+bool MayGain(const FoundRim& rim, const std::vector<FoundRim>& best) {
   constexpr double kPromising = -2;  // evidence from which on a second look may find a head
   constexpr double kMostGain = 15;   // of evidence or preference
-  return rim.evidence > kPromising && rim.evidence > best.evidence - kMostGain &&
-         (rim.preference > best.preference - kMostGain || !OfOneHead(best.fit.rim, rim.fit.rim));
+  return rim.evidence > kPromising &&
+         std::none_of(best.begin(), best.end(), [&](const FoundRim& other) {
+           return rim.evidence < other.evidence - kMostGain ||
+                  (rim.preference < other.preference - kMostGain &&
+                   OfOneHead(other.fit.rim, rim.fit.rim));
+         });
 }
 
 // The rims of an octave, best first, and the best one polished where that may help. None where it
 // is round on one side only: a tip, a corner.
 std::vector<FoundRim> Polished(const Octave& octave,
                                std::vector<FoundRim> rims,
-                               const FoundRim& best_of_all) {
+                               const std::vector<FoundRim>& best_of_all) {
   if (rims.empty()) return {};
   FoundRim best = rims.front();
   if (MayGain(best, best_of_all)) {
@@ -129,10 +134,10 @@ std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
     return std::make_unique<const Octave>(grey, search, radii[static_cast<std::size_t>(i)]);
   });
   std::vector<std::vector<FoundRim>> judged = JudgeAll(octaves);
-  FoundRim best;
+  std::vector<FoundRim> best;
   for (std::vector<FoundRim>& rims : judged) {
     PutBestFirst(rims);
-    if (!rims.empty() && rims.front().evidence > best.evidence) best = rims.front();
+    if (!rims.empty()) best.push_back(rims.front());
   }
   const auto rims = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
     const auto octave = static_cast<std::size_t>(i);
