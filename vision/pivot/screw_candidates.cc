@@ -14,7 +14,7 @@ namespace {
 constexpr double kRadiusRatio = 1.07;
 constexpr float kLeastScore = 0.4F;   // below: what any textured ground reaches by chance
 constexpr std::size_t kPeaks = 100;   // circles to be asked for straight edges
-constexpr std::size_t kClimbed = 20;  // circles to be bent into ellipses
+constexpr std::size_t kClimbed = 15;  // circles to be bent into ellipses
 constexpr std::size_t kKept = 12;     // ellipses to be looked at closely
 constexpr double kSamePx = 0.7;  // closer in centre and radius than this: the same rim found twice
 // |ln(a/b)|/2: beyond 38 degrees of tilt it is half a head cut off by its slot.

@@ -70,6 +70,7 @@ RimFitOptions ShadedOptions(double radius, int degree) {
   options.shading = degree;
   options.last_half_px = std::clamp(kWithin * radius, 3.0, options.first_half_px);
   options.iterations = 12;  // the profiles shorten first
+  options.converged_px = 0.02;
   return options;
 }
 
@@ -127,7 +128,7 @@ std::vector<RefinedRim> FitByDegrees(const cv::Mat& light, const RimEllipse& sta
 // Of a fit that starts where this one ended.
 RimFitOptions OnwardsFrom(const RefinedRim& refined) {
   RimFitOptions options = refined.options;
-  options.iterations = 4;
+  options.iterations = 3;
   return options;
 }
 

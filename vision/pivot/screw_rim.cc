@@ -16,8 +16,8 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kSettledPx = 0.05;  // of change: from here on all profiles are taken
-constexpr double kShrink = 0.8;  // of the profiles from one iteration to the next
+constexpr double kSettledPx = 0.05;  // a smaller change: from here on all profiles are taken
+constexpr double kShrink = 0.8;      // of the profiles from one iteration to the next
 // Shifts further off are something else than the rim. Where the scatter is known place by place,
 // clean rims need not lose their larger errors.
 constexpr double kOutlierSigmas = 4, kOutlierSigmasInGrain = 6;
@@ -100,7 +100,7 @@ std::optional<RimFit> FitRim(const cv::Mat& picture,
   double half_px = options.first_half_px;
   bool settling = true;  // half the profiles will do
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    settling = settling && 2 * iteration < options.iterations;
+    settling = settling && iteration < options.iterations / 2;
     profiles =
         SampleProfiles(picture,
                        fit.rim,

@@ -3,11 +3,14 @@
 #include "vision/scissors/consistency.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vision/edge/edge_curve.h"
+#include "vision/parallel.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -187,8 +190,12 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
 void DoubtKinkedEdges(Blades* blades) {
   constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
   constexpr double kLeastPx = 0.5, kTimes = 2, kMost = 0.95;
-  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
-    const double kink_px = OffPlainCurve(blade->used, kMost);
+  const std::array<LocatedBlade*, 2> both{&blades->upper, &blades->lower};
+  const std::vector<double> kinks_px = ParallelMap(
+      2, [&](int i) { return OffPlainCurve(both[static_cast<std::size_t>(i)]->used, kMost); });
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    LocatedBlade* const blade = both[i];
+    const double kink_px = kinks_px[i];
     const double length_px = (blade->used.back().trend_px - blade->used.front().trend_px).norm();
     if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
       throw Refused(Reason::kLowContrast,
