@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -16,7 +15,7 @@ namespace bladecurve {
 inline const std::filesystem::path& ProcessFolder() {
   struct Folder {
     std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) / ("bladecurve-test-" + std::to_string(getpid()));
+        std::filesystem::temp_directory_path() / ("bladecurve-test-" + std::to_string(getpid()));
     Folder() { std::filesystem::create_directories(path); }
     ~Folder() {
       std::error_code ignored;  // what cannot be removed is left to the system

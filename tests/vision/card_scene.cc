@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
 
@@ -26,6 +28,18 @@ SceneSpec OnCard(const Card& card, double tilt_rad) {
                              .margin_mm = 3});
   }
   return scene;
+}
+
+std::filesystem::path SaveCalibration(const SceneTruth& truth, const std::filesystem::path& path) {
+  const Eigen::Matrix3d& k = truth.camera.k;
+  const nlohmann::json calibration = {
+      {"width", truth.width},
+      {"height", truth.height},
+      {"K",
+       {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
+      {"dist", {truth.camera.k1, 0, 0, 0}}};
+  std::ofstream(path) << calibration;
+  return path;
 }
 
 Vector2d ImageOf(const CameraTruth& camera, const Eigen::Vector3d& world_mm) {

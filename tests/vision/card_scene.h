@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 
 #include "vision/render/render.h"
 #include "vision/scale/card.h"
@@ -13,6 +14,9 @@ namespace bladecurve {
 // Scissors on the card, the middle of the card in the middle of the picture; the rings lie on
 // markers at the border. A lens that bends.
 [[nodiscard]] SceneSpec OnCard(const Card& card, double tilt_rad);
+
+// For --camera; returns the path.
+std::filesystem::path SaveCalibration(const SceneTruth& truth, const std::filesystem::path& path);
 
 [[nodiscard]] Eigen::Vector2d ImageOf(const CameraTruth& camera, const Eigen::Vector3d& world_mm);
 

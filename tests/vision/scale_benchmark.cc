@@ -7,13 +7,16 @@
 #include <filesystem>
 #include <numbers>
 #include <random>
+#include <utility>
 
+#include "process_folder.h"
 #include "vision/card_scene.h"
 #include "vision/corner_bound.h"
 #include "vision/photo/png_writer.h"
 #include "vision/scale/marker_corners.h"
 #include "vision/scale/scale.h"
 #include "vision/square_images.h"
+#include "vision/tone_scene.h"
 
 namespace bladecurve {
 namespace {
@@ -53,13 +56,13 @@ Outcome Run(SquareImage image, int draws) {
   return outcome;
 }
 
-// Lengths of 100 mm measured on rendered photographs of scissors on the card. The camera's
-// calibration is not given: the card's surplus corners give focal length and lens.
+// Lengths of 100 mm measured on rendered photographs of scissors on the card: on the sheet with
+// focal length and lens from the card's surplus corners alone; 2 mm above it so, too, which a
+// camera that looks straight down cannot, and with its calibration.
 void PrintHundredMillimetres() {
   std::printf("\n100 mm on the card under scissors, largest of four errors\n");
-  std::printf("tilt_deg  on_sheet_mm  2_mm_above_mm     ms\n");
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  const std::filesystem::path picture = folder / "bladecurve-scale-benchmark.png";
+  std::printf("tilt_deg  on_sheet_mm  2_mm_above_mm  2_mm_above_calibrated_mm     ms\n");
+  const std::filesystem::path picture = ProcessFolder() / "scale.png";
   for (const double tilt_deg : {0.0, 10.0, 20.0}) {
     const RenderedPhoto rendered =
         RenderScene(OnCard(BuiltInCard(Paper::kA4), tilt_deg * std::numbers::pi / 180));
@@ -72,13 +75,37 @@ void PrintHundredMillimetres() {
     const auto end = std::chrono::steady_clock::now();
     options.plane_height_mm = 2;
     const ScaleResult above = FindScale(photo, options);
-    std::printf("%8.0f %12.4f %14.4f %6.1f\n",
+    options.camera = SaveCalibration(rendered.truth, ProcessFolder() / "camera.json");
+    const ScaleResult calibrated = FindScale(photo, options);
+    std::printf("%8.0f %12.4f %14.4f %25.4f %6.1f\n",
                 tilt_deg,
                 WorstOf100Mm(*on_sheet.map, rendered.truth.camera, 0),
                 WorstOf100Mm(*above.map, rendered.truth.camera, 2),
+                WorstOf100Mm(*calibrated.map, rendered.truth.camera, 2),
                 std::chrono::duration<double, std::milli>(end - start).count());
   }
-  std::filesystem::remove(picture);
+}
+
+// Edges beside a card, encoded with a power law: with the tone curve taken for sRGB, and as the
+// card's borders show it.
+void PrintToneCurves() {
+  std::printf(
+      "\nEdges of blur 1, noise 1, encoded with a power law: taken for sRGB, and by a card\n");
+  std::printf("gamma  exponent_sigma  blade  ground     sRGB_px     card_px\n");
+  for (const double gamma : {1.8, 2.0, 2.2, 2.4, 2.6}) {
+    const ToneCurve tone = testing::ToneByCard({.srgb = false, .gamma = gamma});
+    for (const auto& [blade, ground] :
+         {std::pair(120.0, 200.0), std::pair(20.0, 200.0), std::pair(200.0, 40.0)}) {
+      const testing::EdgeLook look{1, blade, ground, 1, gamma};
+      std::printf("%5.1f %15.3f %6.0f %7.0f %+11.4f %+11.4f\n",
+                  gamma,
+                  tone.exponent_sigma,
+                  blade,
+                  ground,
+                  testing::OffsetOfEdge(look, SrgbToneCurve()),
+                  testing::OffsetOfEdge(look, tone));
+    }
+  }
 }
 
 }  // namespace
@@ -111,5 +138,6 @@ int main() {
     }
   }
   PrintHundredMillimetres();
+  PrintToneCurves();
   return 0;
 }

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <string>
 #include <utility>
@@ -34,19 +32,6 @@ Photo Save(const RenderedPhoto& photo, const std::string& name) {
   return Photo::Load(path);
 }
 
-fs::path SaveCalibration(const SceneTruth& truth, const std::string& name) {
-  const Eigen::Matrix3d& k = truth.camera.k;
-  const nlohmann::json calibration = {
-      {"width", truth.width},
-      {"height", truth.height},
-      {"K",
-       {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
-      {"dist", {truth.camera.k1, 0, 0, 0}}};
-  const fs::path path = ProcessFolder() / name;
-  std::ofstream(path) << calibration;
-  return path;
-}
-
 bool Warns(const ScaleResult& result, const std::string& code) {
   const std::vector<std::string>& warnings = result.map->warnings();
   return std::find(warnings.begin(), warnings.end(), code) != warnings.end();
@@ -62,7 +47,7 @@ CardPhoto Photographed(const SceneSpec& scene, const std::string& name) {
   const RenderedPhoto rendered = RenderScene(scene);
   return {Save(rendered, name + ".png"),
           rendered.truth,
-          SaveCalibration(rendered.truth, name + ".camera.json")};
+          SaveCalibration(rendered.truth, ProcessFolder() / (name + ".camera.json"))};
 }
 
 // Rendered once for all tests.

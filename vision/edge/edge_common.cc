@@ -31,9 +31,9 @@ std::vector<Levels> SomeLevels(const EdgeFit& fit) {
 
 // How far light that is taken for half-way between the levels lies off, the exponent of the tone
 // curve being off by one sigma.
-double ToneSigma(const std::vector<Levels>& levels, double blur_px, double gamma_sigma) {
-  constexpr double kUsualGamma = 2.2, kLeastSlope = 1e-3;
-  const double exponent = 1 + gamma_sigma / kUsualGamma;
+double ToneSigma(const std::vector<Levels>& levels, double blur_px, double exponent_sigma) {
+  constexpr double kLeastSlope = 1e-3;
+  const double exponent = 1 + exponent_sigma;
   const double width = std::sqrt(2 * std::numbers::pi * TotalBlurVariance(blur_px));
   std::vector<double> shifts;
   for (const auto& [blade, ground] : levels) {
@@ -80,7 +80,7 @@ double CommonSigma(const EdgeFit& fit,
                    const ChosenTransition& chosen,
                    bool blur_known) {
   const std::vector<Levels> levels = SomeLevels(fit);
-  return std::hypot(ToneSigma(levels, fit.blur_px, tone.gamma_sigma),
+  return std::hypot(ToneSigma(levels, fit.blur_px, tone.exponent_sigma),
                     BloomSigma(fit, blur_known),
                     std::hypot(RivalSigma(chosen), SlopeSigma(fit)));
 }

@@ -16,4 +16,12 @@ ToneCurve SrgbToneCurve() {
   return curve;
 }
 
+ToneCurve ToThePower(const ToneCurve& curve, double exponent, double exponent_sigma) {
+  ToneCurve power;
+  for (size_t v = 0; v < curve.linear.size(); ++v)
+    power.linear[v] = static_cast<float>(std::pow(curve.linear[v], exponent));
+  power.exponent_sigma = exponent_sigma;
+  return power;
+}
+
 }  // namespace bladecurve

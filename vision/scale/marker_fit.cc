@@ -114,11 +114,13 @@ std::optional<SeenMarker> FitMarker(const cv::Mat& grey,
   for (int look = 0; look < kMostLooks && pixels.size() >= enough; ++look) {
     const MarkerMinimum minimum = MinimiseMarker(problem, pixels, at);
     at = minimum.at;
-    const MarkerResiduals residuals(pixels, MarkerModel(ink, frame, at));
+    const MarkerResiduals residuals(pixels, ink, frame, at);
     std::vector<MarkerPixel> uncovered = residuals.Uncovered(pixels);
     if (uncovered.size() == pixels.size()) {
       if (!residuals.Explain(pixels)) return std::nullopt;
-      return Placed(start, at, residuals.Covariance(minimum.information), frame, camera);
+      auto marker = Placed(start, at, residuals.Covariance(minimum.information), frame, camera);
+      if (marker) marker->tone = residuals.Tone();
+      return marker;
     }
     pixels = std::move(uncovered);
   }

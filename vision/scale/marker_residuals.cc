@@ -4,23 +4,38 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "vision/image/robust_statistics.h"
 
 namespace bladecurve {
 
-MarkerResiduals::MarkerResiduals(const std::vector<MarkerPixel>& pixels, const MarkerModel& model) {
-  constexpr double kPlainWhite = 0.05;
-  MarkerVector derivative;
+MarkerResiduals::MarkerResiduals(const std::vector<MarkerPixel>& pixels,
+                                 const InkCells& ink,
+                                 const MarkerFrame& frame,
+                                 const MarkerVector& at) {
+  constexpr double kPlainWhite = 0.05, kSofter = 1.2;
+  MarkerVector soft = at;
+  soft[kBlur] *= kSofter;
+  const MarkerModel model(ink, frame, at), softer(ink, frame, soft);
+  MarkerVector derivative, derivative_softer;
+  Vector derivatives;
   for (const MarkerPixel& pixel : pixels) {
     Cell& cell = cells_[static_cast<size_t>(pixel.cell)];
     const double light = model.Light(pixel.place, &derivative);
     const double residual = pixel.light - light;
     if (light >= 1 && residual > -kPlainWhite) continue;  // says nothing
+    (void)softer.Light(pixel.place, &derivative_softer);
+    derivatives << derivative, derivative_softer[kBlur] - derivative[kBlur];
+    const double to_exponent = light > 0 && light < 1 ? -light * std::log(light) : 0;
     cell.sum_square += residual * residual;
-    cell.score += residual * derivative;
+    cell.score += residual * derivatives;
+    cell.tone_score += residual * to_exponent;
     ++cell.count;
+    information_.noalias() += derivatives * derivatives.transpose();
+    tone_cross_ += to_exponent * derivatives;
+    tone_information_ += to_exponent * to_exponent;
   }
 }
 
@@ -50,11 +65,31 @@ bool MarkerResiduals::Explain(const std::vector<MarkerPixel>& pixels) const {
   return left < kMostLeft * (square - sum * sum / static_cast<double>(pixels.size()));
 }
 
+ToneSeen MarkerResiduals::Tone() const {
+  // What of the derivatives to the exponent the other unknowns cannot do.
+  const Vector shared = information_.ldlt().solve(tone_cross_);
+  const double own_information = tone_information_ - tone_cross_.dot(shared);
+  double score = 0, count = 0, cells = 0;
+  for (const Cell& cell : cells_) {
+    score += cell.tone_score - shared.dot(cell.score);
+    count += cell.count;
+    cells += cell.count > 0 ? 1 : 0;
+  }
+  if (!(own_information > 0) || cells < 2) return {};
+  double square = 0;  // of what each cell leaves
+  for (const Cell& cell : cells_) {
+    const double left = cell.tone_score - shared.dot(cell.score) - score * cell.count / count;
+    square += left * left;
+  }
+  return {1 + score / own_information, std::sqrt(square * cells / (cells - 1)) / own_information};
+}
+
 MarkerMatrix MarkerResiduals::Covariance(const MarkerMatrix& information) const {
   MarkerMatrix middle = MarkerMatrix::Zero();
   double cells = 0;
   for (const Cell& cell : cells_) {
-    middle += cell.score * cell.score.transpose();
+    const auto score = cell.score.head<kMarkerUnknowns>();
+    middle += score * score.transpose();
     cells += cell.count > 0 ? 1 : 0;
   }
   const MarkerMatrix inverse = information.ldlt().solve(MarkerMatrix::Identity());

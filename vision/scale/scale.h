@@ -39,6 +39,12 @@ struct ScaleOptions {
 // Source of a map that takes a pixel for a unit.
 inline constexpr const char* kPixelsSource = "pixels";
 
+// The light that a print shows is that which it was read with to the power of `exponent`.
+struct ToneSeen {
+  double exponent = 1;
+  double sigma = std::numeric_limits<double>::infinity();
+};
+
 // A printed marker seen in the picture: scene finding leaves it out.
 struct SeenMarker {
   int id = 0;
@@ -46,6 +52,7 @@ struct SeenMarker {
       corners_px;  // sub-pixel; printed order, clockwise from the top left
   double corner_sigma_px = std::numeric_limits<double>::quiet_NaN();
   double blur_px = std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma, pixel box apart
+  ToneSeen tone;             // of its borders, where all of them are seen
   bool overexposed = false;  // the paper beside it is brighter than white
 };
 

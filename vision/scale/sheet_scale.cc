@@ -13,6 +13,7 @@
 #include "vision/refused.h"
 #include "vision/scale/card.h"
 #include "vision/scale/marker_corners.h"
+#include "vision/scale/print_tone.h"
 #include "vision/scale/sheet_pose.h"
 
 namespace bladecurve {
@@ -120,22 +121,23 @@ bool LensBendsSides(const std::vector<SeenMarker>& markers, const Camera& camera
   return false;
 }
 
-// The sheet, then once more with the lens just found where it bends the markers' sides.
+// The sheet, then once more with the lens just found where it bends the markers' sides. The tone
+// curve moves no corner: see MarkerModel.
 ScaleResult Solve(const Photo& photo,
                   const ScaleOptions& options,
                   std::vector<SeenMarker> markers,
                   const ProblemFrom& problem) {
-  const ToneCurve tone = SrgbToneCurve();
   SheetSolution solution = SolveSheet(problem(markers));
   if (LensBendsSides(markers, solution.pose.camera)) {
-    markers = RelocateMarkers(photo.grey(), tone, markers, solution.pose.camera);
+    markers = RelocateMarkers(photo.grey(), SrgbToneCurve(), markers, solution.pose.camera);
     solution = SolveSheet(problem(markers));
   }
   ScaleResult result;
   result.map = MapOf(solution, markers, photo, options);
   result.sheet = std::move(solution);
   result.plane_height_mm = options.plane_height_mm.value_or(0);
-  result.tone = tone;
+  const ToneSeen tone = ToneOfPrint(markers);
+  result.tone = ToThePower(SrgbToneCurve(), tone.exponent, tone.sigma);
   result.markers = std::move(markers);
   return result;
 }
