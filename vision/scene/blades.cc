@@ -315,6 +315,11 @@ double TurnAtJoint(const BladePair& pair) {
   const auto bisector = [&](const Vector2d& a, const Vector2d& b) {
     return ((a - pair.pivot).normalized() + (b - pair.pivot).normalized()).eval();
   };
+  const auto shorter = [&](const Vector2d& a, const Vector2d& b) {
+    return std::min((a - pair.pivot).norm(), (b - pair.pivot).norm());
+  };
+  if (shorter(pair.shank_first, pair.shank_second) < shorter(pair.first.tip, pair.second.tip))
+    return 0;
   const Vector2d blades = bisector(pair.first.tip, pair.second.tip);
   const Vector2d shanks = -bisector(pair.shank_first, pair.shank_second);
   return std::abs(std::atan2(Cross(shanks, blades), shanks.dot(blades)));

@@ -41,7 +41,7 @@ struct BladePair {
 
 // Between the bisector of the blades and that of the shanks, rad. 0.15 at most if they lie in line,
 // for handles of unlike size and shanks that the frame cuts; 0.4 to 0.7 where the blades are set at
-// an angle, as those of Lister's scissors.
+// an angle, as those of Lister's scissors. 0 where a shank is seen for less than a blade's length.
 [[nodiscard]] double TurnAtJoint(const BladePair& pair);
 
 }  // namespace bladecurve

@@ -45,6 +45,21 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
   return *std::move(begins);
 }
 
+// Whether the margin along a blade's edge lies along another side that faces the same way as well:
+// of its own shank, or, where the other blade's edge has none, of that blade.
+bool IsShadow(const BladeView& view, const Margin& margin, bool left, bool alone) {
+  constexpr double kLeastPx = 6;  // narrower margins may be blur on any shank
+  if (margin.width_px > kLeastPx) {
+    const auto shank = view.ShankSide(left);
+    const auto of_shank = shank ? view.MarginOf(*shank, left) : std::nullopt;
+    if (of_shank && AreOneShadow(margin, *of_shank)) return true;
+  }
+  if (!alone) return false;
+  const auto outer = view.OuterSide(!left);
+  const auto of_outer = outer ? view.MarginOf(*outer, !left) : std::nullopt;
+  return of_outer && AreOneShadow(margin, *of_outer);
+}
+
 }  // namespace
 
 LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) {
@@ -57,14 +72,11 @@ LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) 
 void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
   const auto of_upper = view.MarginOf(edges->upper, true);
   const auto of_lower = view.MarginOf(edges->lower, false);
-  if (of_upper.has_value() == of_lower.has_value()) return;  // bevels, or none
-  const bool left = of_upper.has_value();
-  const auto outer = view.OuterSide(!left);
-  const auto of_outer = outer ? view.MarginOf(*outer, !left) : std::nullopt;
-  const Margin& shadow = of_upper ? *of_upper : *of_lower;
-  if (!of_outer || !AreOneShadow(shadow, *of_outer)) return;
-  LocatedEdge& edge = of_upper ? edges->upper : edges->lower;
-  edge = WhereShadowBegins(view, std::move(edge), shadow, left);
+  const bool alone = of_upper.has_value() != of_lower.has_value();  // else both may be bevels
+  if (of_upper && IsShadow(view, *of_upper, true, alone))
+    edges->upper = WhereShadowBegins(view, std::move(edges->upper), *of_upper, true);
+  if (of_lower && IsShadow(view, *of_lower, false, alone))
+    edges->lower = WhereShadowBegins(view, std::move(edges->lower), *of_lower, false);
 }
 
 }  // namespace bladecurve

@@ -11,8 +11,8 @@ namespace bladecurve {
 // shadow begins, if that is seen.
 [[nodiscard]] LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left);
 
-// An edge along the border of a shadow that its blade casts is looked for where that begins. The
-// other blade's outer side, which faces the same way, casts the same one.
+// An edge along the border of a shadow that its blade casts is looked for where that begins. Its
+// own shank, or the other blade's outer side, which face the same way, cast the same one.
 void LeaveCastShadow(const BladeView& view, BladeEdges* edges);
 
 }  // namespace bladecurve

@@ -176,8 +176,9 @@ LocatedEdge LocateBladeAlong(const Photo& photo,
 std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
                                                const ScaleResult& scale,
                                                const Scene& scene,
-                                               const EdgeGuess& guess) {
-  return BladeView(photo, scale, scene).InShadow(guess);
+                                               const EdgeGuess& guess,
+                                               Shadow shadow) {
+  return BladeView(photo, scale, scene).InShadow(guess, shadow);
 }
 
 std::optional<LocatedEdge> LocateBladeWithinBand(const Photo& photo,

@@ -33,7 +33,8 @@ namespace bladecurve {
 [[nodiscard]] std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
                                                              const ScaleResult& scale,
                                                              const Scene& scene,
-                                                             const EdgeGuess& guess);
+                                                             const EdgeGuess& guess,
+                                                             Shadow shadow);
 
 // The same along the inner side of a dark band beside `edge`, if it is seen there: a shadow may
 // have been taken for the blade.

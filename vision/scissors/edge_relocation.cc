@@ -132,17 +132,32 @@ void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
     DoubtVaguerOne(ShareInPx(std::abs(pivot.asymmetry), pivot, *blades), blades);
 }
 
+// Where a slanted view may part the edges as well. What is told of the upper edge must be seen: the
+// lower one, mirrored, is as wrong as the slant. The lower one is not looked for: in photographs
+// other lines lie where a slanted view would have it.
+void RelocateInnerOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kDoubt = 0.5;  // of the way
+  const auto [inner, other] = InnerOne(pivot, blades);
+  const MirrorLine line = LineBetween(view, pivot, *blades);
+  if (!inner.on_left) {
+    if (!IsClear(inner.edge)) BorrowInnerOne(view, line, pivot, blades);
+    return;
+  }
+  const MirroredBladeSearch search{view, pivot, other, line};
+  std::optional<RelocatedBlade> found = LookWhereMirrored(search);
+  if (!found) return;
+  Doubt(&found->blade.edge, kDoubt * WayPx(search));
+  Replace(*found, kWhereMirrored, &inner);
+}
+
 void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
-    // A slanted view may part them as well; but then nothing is seen where they would agree. What
-    // is told of the upper edge must be seen: the other one, mirrored, is as wrong as the slant.
-    if (!AssumesMirror(view, pivot) || !AreFarUnlike(pivot.asymmetry)) return;
+    // A slanted view may part them as well; but then nothing is seen where they would agree.
+    if (!AssumesMirror(view, pivot) || !AreSuspect(pivot.asymmetry)) return;
     if (RelocateShadowedOne(view, pivot, blades)) return;
-    const LocatedBlade& inner = InnerOne(pivot, blades).blade;
-    if (&inner == &blades->lower && !IsClear(inner.edge))
-      BorrowInnerOne(view, LineBetween(view, pivot, *blades), pivot, blades);
+    if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;

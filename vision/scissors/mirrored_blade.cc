@@ -89,12 +89,15 @@ std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search
   });
 }
 
-std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search, double search_px) {
+std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
+                                           double search_px,
+                                           Shadow shadow) {
   std::optional<LocatedEdge> edge =
       LocateBladeInShadow(search.view.photo,
                           search.view.scale,
                           search.view.scene,
-                          GuessWithin(search, Widened(search, search_px)));
+                          GuessWithin(search, Widened(search, search_px)),
+                          shadow);
   if (!edge) return std::nullopt;
   return IfItFacesGap(search, [&] { return *std::move(edge); });
 }

@@ -40,7 +40,8 @@ struct MirroredBladeSearch {
 
 // The same at the place where a shadow begins; further aside where the way is long.
 [[nodiscard]] std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
-                                                         double search_px);
+                                                         double search_px,
+                                                         Shadow shadow);
 
 // The blade where the other one puts it, if it is seen there and the two are alike then.
 [[nodiscard]] std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search);

@@ -40,13 +40,16 @@ bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* bla
   const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
-  const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest);
-  if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) return false;
-  if (LeftOfDifference(search, *found) > (IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft))
-    return false;
-  Replace(*found, "inside a shadow, where the other one puts it", &outer);
-  MarkAsAssumed(view, pivot, &outer);
-  return true;
+  const double most_left = IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft;
+  for (const Shadow shadow : {Shadow::kDarker, Shadow::kBrighter}) {
+    const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest, shadow);
+    if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) continue;
+    if (LeftOfDifference(search, *found) > most_left) continue;
+    Replace(*found, "inside a shadow, where the other one puts it", &outer);
+    MarkAsAssumed(view, pivot, &outer);
+    return true;
+  }
+  return false;
 }
 
 bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades) {
