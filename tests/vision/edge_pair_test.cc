@@ -161,6 +161,22 @@ TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsTo
   }
 }
 
+// Wide open the outer side faces another way and its shadow is narrower; the shank's is as wide.
+TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
+  constexpr double kClosePx = 0.3;
+  for (const double heading_rad : {33 * kDegree, 45 * kDegree}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(35 * kDegree);
+    spec.finish = Finish::kBlack;
+    spec.light.shadow = 0.85;
+    spec.theta_rad = 70 * kDegree;
+    spec.heading_rad = heading_rad;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << heading_rad;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << heading_rad;
+  }
+}
+
 // As wide as the blur the shadow is no line of its own, and draws the edge to its border.
 TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
   constexpr double kClosePx = 0.3;

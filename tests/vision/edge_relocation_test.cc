@@ -152,6 +152,21 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
   }
 }
 
+// Black blades are darker than their shadows.
+TEST(RelocateUnlikeEdges, FindsTheEdgeOfABlackBladeInsideOfAHardShadow) {
+  constexpr double kShadowPx = 1.5, kClosePx = 0.3, kHardMm = 0.2;
+  for (const double direction_rad : {225 * kDegree, 270 * kDegree}) {
+    SceneSpec spec = SceneWithShadow(62 * kDegree, direction_rad, kHardMm);
+    spec.finish = Finish::kBlack;
+    Measured measured{spec};
+    const EdgeTruth& truth = measured.truth.lower;
+    EXPECT_GT(FarFrom(truth, measured.blades.lower.used), kShadowPx) << direction_rad;
+    Relocate(&measured);
+    EXPECT_LT(FarFrom(truth, measured.blades.lower.used), kClosePx) << direction_rad;
+    EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx) << direction_rad;
+  }
+}
+
 // Edges that differ although nothing else is seen: one of them may be a bevel's or a shadow's line,
 // unless the pivot is known no better than to lie aside.
 TEST(RelocateUnlikeEdges, DoubtsTheVaguerOfEdgesThatNothingMakesAlike) {
@@ -285,6 +300,18 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   Relocate(&measured);
   EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.lower.used), kClosePx);
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
+}
+
+// It is the curve that is told of the blade; the view's tilt may part the edges, too, which is
+// said.
+TEST(RelocateUnlikeEdges, FindsTheUpperEdgeFurtherOutWithoutMarkers) {
+  constexpr double kAsidePx = 25, kClosePx = 0.3, kDoubtPx = 8;
+  Measured measured{SceneWithMarkers()};
+  measured.Misplace(&measured.blades.upper, -kAsidePx);
+  measured.scale.sheet.reset();
+  Relocate(&measured);
+  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
+  EXPECT_GT(measured.blades.upper.edge.common_sigma_px, kDoubtPx);
 }
 
 // The curve that is told of the blade is not the other one's.

@@ -541,8 +541,8 @@ Candidate MaskWithTurn(double turn_rad) {
   c.pair.first.length = c.pair.second.length = 100;
   c.pair.first.tip = at(-kHalfOpening);
   c.pair.second.tip = at(kHalfOpening);
-  c.pair.shank_first = at(std::numbers::pi - turn_rad - kHalfOpening);
-  c.pair.shank_second = at(std::numbers::pi - turn_rad + kHalfOpening);
+  c.pair.shank_first = 1.5 * at(std::numbers::pi - turn_rad - kHalfOpening);
+  c.pair.shank_second = 1.5 * at(std::numbers::pi - turn_rad + kHalfOpening);
   return c;
 }
 
@@ -567,6 +567,15 @@ TEST(TurnAtJoint, IsThatOfMostMasksOfTheSameBlades) {
   ladder.seen.push_back(MaskWithTurn(0));
   ladder.seen.push_back(MaskWithTurn(0));
   EXPECT_NEAR(TurnAtJoint(ladder), 0, 1e-9);
+}
+
+// The end of a shank of which a card hides the rest tells no direction.
+TEST(TurnAtJoint, IsNoneOfAShankShorterThanTheBlades) {
+  constexpr double kTurned = 0.5;
+  BladePair pair = MaskWithTurn(kTurned).pair;
+  EXPECT_NEAR(TurnAtJoint(pair), kTurned, 1e-9);
+  pair.shank_first *= 0.6;
+  EXPECT_EQ(TurnAtJoint(pair), 0);
 }
 
 TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
