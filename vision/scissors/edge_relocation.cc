@@ -139,7 +139,7 @@ void RelocateInnerOne(const MirrorView& view, const Pivot& pivot, Blades* blades
   constexpr double kDoubt = 0.5;  // of the way
   const auto [inner, other] = InnerOne(pivot, blades);
   const MirrorLine line = LineBetween(view, pivot, *blades);
-  if (!inner.on_left) {
+  if (&inner == &blades->lower) {
     if (!IsClear(inner.edge)) BorrowInnerOne(view, line, pivot, blades);
     return;
   }

@@ -5,13 +5,16 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
+#include "vision/edge/edge_margin.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/edge_pair.h"
 #include "vision/scissors/mirrored_blade.h"
+#include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
 namespace {
@@ -29,6 +32,16 @@ std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlad
   });
 }
 
+// The kinds of shadow that an edge may be the border of. One that is brighter than the blade is a
+// margin within the edge; elsewhere any step to bright ground would look like its beginning.
+std::vector<Shadow> ShadowsWithin(const MirrorView& view, const LocatedBlade& blade) {
+  const auto margin = FindMargin(
+      view.photo.grey(), view.scale.tone, blade.edge, BladeOf(view.scene, blade.on_left).width_px);
+  if (margin && margin->than_blade == Shadow::kBrighter)
+    return {Shadow::kDarker, Shadow::kBrighter};
+  return {Shadow::kDarker};
+}
+
 }  // namespace
 
 bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
@@ -41,7 +54,7 @@ bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* bla
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
   const double most_left = IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft;
-  for (const Shadow shadow : {Shadow::kDarker, Shadow::kBrighter}) {
+  for (const Shadow shadow : ShadowsWithin(view, outer)) {
     const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest, shadow);
     if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) continue;
     if (LeftOfDifference(search, *found) > most_left) continue;
