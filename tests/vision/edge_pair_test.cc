@@ -177,6 +177,19 @@ TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
   }
 }
 
+// The first's round shanks are as dark along both sides as its bevel; the second's, black ones, are
+// along one, but not as far.
+TEST(LocateBlades, TakesNoBevelForAShadowBecauseOfHowItsShankIsShaded) {
+  constexpr double kClosePx = 0.3;
+  for (const std::uint64_t seed : {7000207, 7000275}) {
+    const SceneSpec spec = RandomScene(seed);
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << seed;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << seed;
+  }
+}
+
 // As wide as the blur the shadow is no line of its own, and draws the edge to its border.
 TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
   constexpr double kClosePx = 0.3;

@@ -45,16 +45,27 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
   return *std::move(begins);
 }
 
-// Whether the margin along a blade's edge lies along another side that faces the same way as well:
-// of its own shank, or, where the other blade's edge has none, of that blade.
-bool IsShadow(const BladeView& view, const Margin& margin, bool left, bool alone) {
-  constexpr double kLeastPx = 6;  // narrower margins may be blur on any shank
-  if (margin.width_px > kLeastPx) {
-    const auto shank = view.ShankSide(left);
-    const auto of_shank = shank ? view.MarginOf(*shank, left) : std::nullopt;
-    if (of_shank && AreOneShadow(margin, *of_shank)) return true;
-  }
-  if (!alone) return false;
+std::optional<Margin> MarginOfShank(const BladeView& view, bool left) {
+  const auto side = view.ShankSide(left);
+  return side ? view.MarginOf(*side, left) : std::nullopt;
+}
+
+// Whether a margin lies along the blade's own shank as well, which is no lower and casts one at
+// least as wide, and not along the other shank: light falls off towards the sides of rounded ones,
+// and a bevel may be as dark as that.
+bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
+  constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
+  constexpr double kAsWide = 0.95;  // of the margin
+  if (margin.width_px <= kLeastPx) return false;
+  const auto of_shank = MarginOfShank(view, left);
+  if (!of_shank || of_shank->width_px < kAsWide * margin.width_px ||
+      !AreOneShadow(margin, *of_shank))
+    return false;
+  const auto of_other = MarginOfShank(view, !left);
+  return !of_other || !AreOneShading(*of_shank, *of_other);
+}
+
+bool IsShadowOfOtherBlade(const BladeView& view, const Margin& margin, bool left) {
   const auto outer = view.OuterSide(!left);
   const auto of_outer = outer ? view.MarginOf(*outer, !left) : std::nullopt;
   return of_outer && AreOneShadow(margin, *of_outer);
@@ -73,9 +84,13 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
   const auto of_upper = view.MarginOf(edges->upper, true);
   const auto of_lower = view.MarginOf(edges->lower, false);
   const bool alone = of_upper.has_value() != of_lower.has_value();  // else both may be bevels
-  if (of_upper && IsShadow(view, *of_upper, true, alone))
+  const auto is_shadow = [&](const Margin& margin, bool left) {
+    return IsShadowOfShank(view, margin, left) ||
+           (alone && IsShadowOfOtherBlade(view, margin, left));
+  };
+  if (of_upper && is_shadow(*of_upper, true))
     edges->upper = WhereShadowBegins(view, std::move(edges->upper), *of_upper, true);
-  if (of_lower && IsShadow(view, *of_lower, false, alone))
+  if (of_lower && is_shadow(*of_lower, false))
     edges->lower = WhereShadowBegins(view, std::move(edges->lower), *of_lower, false);
 }
 
