@@ -51,8 +51,8 @@ std::optional<Margin> MarginOfShank(const BladeView& view, bool left) {
 }
 
 // Whether a margin lies along the blade's own shank as well, which is no lower and casts one at
-// least as wide, and not along the other shank: light falls off towards the sides of rounded ones,
-// and a bevel may be as dark as that.
+// least as wide, and no dark one along the other shank: light falls off towards the sides of
+// rounded ones, and a bevel may be as dark as that.
 bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
   constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
   constexpr double kAsWide = 0.95;  // of the margin
@@ -62,7 +62,7 @@ bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
       !AreOneShadow(margin, *of_shank))
     return false;
   const auto of_other = MarginOfShank(view, !left);
-  return !of_other || !AreOneShading(*of_shank, *of_other);
+  return !of_other || of_other->than_blade != Shadow::kDarker;
 }
 
 bool IsShadowOfOtherBlade(const BladeView& view, const Margin& margin, bool left) {
