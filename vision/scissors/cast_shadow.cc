@@ -45,8 +45,9 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
   return *std::move(begins);
 }
 
-std::optional<Margin> MarginOfShank(const BladeView& view, bool left) {
-  const auto side = view.ShankSide(left);
+std::optional<Margin> MarginAlong(const BladeView& view,
+                                  const std::optional<LocatedEdge>& side,
+                                  bool left) {
   return side ? view.MarginOf(*side, left) : std::nullopt;
 }
 
@@ -57,17 +58,16 @@ bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
   constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
   constexpr double kAsWide = 0.95;  // of the margin
   if (margin.width_px <= kLeastPx) return false;
-  const auto of_shank = MarginOfShank(view, left);
+  const auto of_shank = MarginAlong(view, view.ShankSide(left), left);
   if (!of_shank || of_shank->width_px < kAsWide * margin.width_px ||
       !AreOneShadow(margin, *of_shank))
     return false;
-  const auto of_other = MarginOfShank(view, !left);
+  const auto of_other = MarginAlong(view, view.ShankSide(!left), !left);
   return !of_other || of_other->than_blade != Shadow::kDarker;
 }
 
 bool IsShadowOfOtherBlade(const BladeView& view, const Margin& margin, bool left) {
-  const auto outer = view.OuterSide(!left);
-  const auto of_outer = outer ? view.MarginOf(*outer, !left) : std::nullopt;
+  const auto of_outer = MarginAlong(view, view.OuterSide(!left), !left);
   return of_outer && AreOneShadow(margin, *of_outer);
 }
 
