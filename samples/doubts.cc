@@ -25,8 +25,10 @@ constexpr std::array kDoubts = {
     Doubt{"sheet_bent", "the markers do not lie in one plane; flatten the sheet"},
     Doubt{"camera_near",
           "from so near, heights matter much; go 300 mm away, and measure --plane-height-mm well"},
-    Doubt{"camera_unknown",
-          "how far away the camera is, and so what a height does, is a guess; give --camera"},
+    Doubt{
+        "camera_unknown",
+        "how far away the camera is, and so what a height does, is a guess; lean it by 10 degrees, "
+        "which shows the markers in perspective, or give --camera"},
     Doubt{"plane_height_unknown",
           "the blades lie above the sheet, by 0 +- 2 mm as is assumed; give --plane-height-mm"},
     Doubt{"marker_overexposed", "the paper is brighter than white; expose less"},

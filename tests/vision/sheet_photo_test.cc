@@ -115,6 +115,20 @@ TEST(FindScale, WarnsOfACameraTooNear) {
   EXPECT_FALSE(Warns(FindScale(CardSquarely().photo, options), "camera_near"));
 }
 
+TEST(FindScale, NeedsALeaningCameraToTellHowFarAwayItIs) {
+  const double leaning_rad = 10 * kDegree;
+  const CardPhoto leaning = Photographed(OnCard(BuiltInCard(Paper::kA4), leaning_rad), "leaning");
+  ScaleOptions options;
+  options.plane_height_mm = 2;
+  const ScaleResult from_above = FindScale(CardSquarely().photo, options);
+  const ScaleResult by_perspective = FindScale(leaning.photo, options);
+  EXPECT_TRUE(Warns(from_above, "camera_unknown"));
+  EXPECT_FALSE(Warns(by_perspective, "camera_unknown"));
+  constexpr double kMostMm = 0.01;
+  EXPECT_LT(WorstOf100Mm(*by_perspective.map, leaning.truth.camera, 2), kMostMm);
+  EXPECT_GT(WorstOf100Mm(*from_above.map, CardSquarely().truth.camera, 2), kMostMm);
+}
+
 // Paper that is not flat moves markers by a fraction of a millimetre each.
 TEST(FindScale, WarnsOfABentSheetAndWidensTheUncertainty) {
   SceneSpec scene = OnCard(BuiltInCard(Paper::kA4), 0);
