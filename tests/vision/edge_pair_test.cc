@@ -56,7 +56,7 @@ struct Seen {
     return options;
   }
 
-  [[nodiscard]] BladeEdges Locate() const { return LocateBlades(photo, scale, scene); }
+  [[nodiscard]] BladeEdges Locate() const { return LocateBlades(BladeView(photo, scale, scene)); }
 
   Photo photo;
   ScaleResult scale;
@@ -286,7 +286,8 @@ class PaintedBlades {
     cv::resize(fine_, bgr, {}, 1.0 / kFiner, 1.0 / kFiner, cv::INTER_AREA);
     cv::GaussianBlur(bgr, bgr, {}, blur_px);
     const Photo photo = Measured::PhotoOf(bgr);
-    return LocateBlades(photo, FindScale(photo, options), scene);
+    const ScaleResult scale = FindScale(photo, options);
+    return LocateBlades(BladeView(photo, scale, scene));
   }
 
   static void ExpectOnEdges(const BladeEdges& edges) {
@@ -425,7 +426,7 @@ TEST(LocateBlades, GoesFromASoftShadowsBorderToWhereTheShadowBegins) {
 }
 
 // Steel on a drape that is five grey values brighter, in grain that all colours share.
-TEST(LocateBladeAlong, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
+TEST(BladeView, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
   constexpr int kSide = 300;
   constexpr double kOffset = 200, kBlurPx = 0.8, kGrain = 3, kNoise = 1.5;
   constexpr double kFaintPx = 1, kClosePx = 0.1;
@@ -452,7 +453,8 @@ TEST(LocateBladeAlong, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
   guess.path_px = {middle - 110 * along, middle + 110 * along};
   guess.blade_on_left = false;
   EXPECT_GT(TypicalSigma(LocateEdge(photo.grey(), scale.tone, guess).points), kFaintPx);
-  const LocatedEdge edge = LocateBladeAlong(photo, scale, {}, guess);
+  const Scene scene;
+  const LocatedEdge edge = BladeView(photo, scale, scene).InGreyOrColours(guess);
   EXPECT_LT(TypicalSigma(edge.points), kClosePx);
   for (const LocatedEdgePoint& point : edge.points) {
     if (point.inlier) {

@@ -115,7 +115,7 @@ struct Measured {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
     for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();
-    BladeEdges edges = LocateBlades(photo, scale, scene);
+    BladeEdges edges = LocateBlades(View());
     blades = {{true, edges.upper, {}, {}, {}}, {false, edges.lower, {}, {}, {}}, false};
     for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
     pivot.point_px = truth.pivot_px;
@@ -170,7 +170,7 @@ struct Measured {
     return upper ? truth.upper : truth.lower;
   }
 
-  [[nodiscard]] MirrorView View() const { return {photo, scale, scene}; }
+  [[nodiscard]] BladeView View() const { return BladeView(photo, scale, scene); }
 
   static Photo PhotoOf(const cv::Mat& picture) {
     const std::filesystem::path file = ProcessFolder() / "picture.png";

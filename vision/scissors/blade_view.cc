@@ -24,21 +24,21 @@ LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
 }  // namespace
 
 BladeView::BladeView(const Photo& photo, const ScaleResult& scale, const Scene& scene)
-    : photo_(photo), tone_(scale.tone), scene_(scene) {
+    : photo_(photo), scale_(scale), scene_(scene) {
   // A blade's edge, nearer to the camera than print by a plate or so, is as sharp.
   options_.most_blur_px = PrintBlurPx(scale.markers).value_or(options_.most_blur_px);
 }
 
 std::optional<LocatedEdge> BladeView::InGrey(const EdgeGuess& guess) const {
   if (guess.path_px.size() < 2) return std::nullopt;
-  return UnlessRefused([&] { return LocateEdge(grey(), tone_, guess, options_); });
+  return UnlessRefused([&] { return LocateEdge(grey(), tone(), guess, options_); });
 }
 
 template <typename Look>
 LocatedEdge BladeView::InGreyOr(const Look& look, const EdgeGuess& guess) const {
   constexpr double kFaintPx = 1, kSurer = 0.5;
   try {
-    LocatedEdge edge = LocateEdge(grey(), tone_, guess, options_);
+    LocatedEdge edge = LocateEdge(grey(), tone(), guess, options_);
     if (TypicalSigma(edge.points) <= kFaintPx || edge.ambiguity > kAsGood) return edge;
     const auto coloured = UnlessRefused([&] { return InColours(look, guess).value_or(edge); });
     return coloured && TotalSigma(*coloured) < kSurer * TotalSigma(edge) ? *coloured : edge;
@@ -53,8 +53,8 @@ LocatedEdge BladeView::InGreyOr(const Look& look, const EdgeGuess& guess) const 
 template <typename Look>
 std::optional<LocatedEdge> BladeView::InColours(const Look& look, const EdgeGuess& guess) const {
   constexpr double kGain = 1.5;  // times better separated; less is no other picture
-  const ColourView view = ViewWhereSidesDiffer(Colours(), tone_, guess);
-  const double in_grey = GreySeparation(grey(), tone_, guess);
+  const ColourView view = ViewWhereSidesDiffer(Colours(), tone(), guess);
+  const double in_grey = GreySeparation(grey(), tone(), guess);
   if (!(view.separation > 0) || view.separation < kGain * in_grey) return std::nullopt;
   return look(view, guess);
 }
@@ -71,7 +71,7 @@ std::optional<LocatedEdge> BladeView::InColoursThenGrey(const EdgeGuess& guess,
                                                         double shade) const {
   constexpr double kColoursOffPx = 2;
   auto coloured = UnlessRefused(
-      [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone_, guess, shade), guess); });
+      [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone(), guess, shade), guess); });
   if (!coloured) return std::nullopt;
   auto in_grey = InGrey({TrendOf(*coloured), guess.blade_on_left, kColoursOffPx});
   const bool clearer =
@@ -81,7 +81,7 @@ std::optional<LocatedEdge> BladeView::InColoursThenGrey(const EdgeGuess& guess,
 
 std::optional<LocatedEdge> BladeView::InShadow(const EdgeGuess& guess, Shadow shadow) const {
   std::optional<LocatedEdge> edge =
-      UnlessRefused([&] { return LocateEdgeInShadow(grey(), tone_, guess, shadow, options_); });
+      UnlessRefused([&] { return LocateEdgeInShadow(grey(), tone(), guess, shadow, options_); });
   const bool is_such = edge && (TypicalContrast(*edge) < 0) == (shadow == Shadow::kDarker);
   return is_such ? std::move(edge) : std::nullopt;
 }
@@ -95,7 +95,7 @@ std::optional<LocatedEdge> BladeView::ShankSide(bool left) const {
 }
 
 std::optional<Margin> BladeView::MarginOf(const LocatedEdge& edge, bool left) const {
-  return FindMargin(grey(), tone_, edge, BladeOf(scene_, left).width_px);
+  return FindMargin(grey(), tone(), edge, BladeOf(scene_, left).width_px);
 }
 
 const cv::Mat& BladeView::Colours() const {
@@ -113,7 +113,7 @@ ReducedColours BladeView::Reduced() const {
 bool BladeView::ShowsColourAtTop() const {
   constexpr double kTop = 1.0 / 64;  // of the picture: a quarter of a millisecond of 12 MP
   constexpr int kLongSide = 1000;    // px
-  return ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone_);
+  return ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone());
 }
 
 int BladeView::LongSide() const { return std::max(grey().cols, grey().rows); }

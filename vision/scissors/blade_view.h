@@ -22,15 +22,18 @@ struct BladeEdges {
   LocatedEdge upper, lower;
 };
 
-// A photograph in which the edges of blades are looked for: in grey, and in colours, which are
-// decoded when they are first asked for, from any thread. Outlives none of its arguments.
+// A photograph in which the edges of blades are looked for, and what is known of it before: in
+// grey, and in colours, which are decoded when they are first asked for, from any thread. Outlives
+// none of its arguments.
 class BladeView {
  public:
   BladeView(const Photo& photo, const ScaleResult& scale, const Scene& scene);
 
+  [[nodiscard]] const Photo& photo() const { return photo_; }
+  [[nodiscard]] const ScaleResult& scale() const { return scale_; }
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const cv::Mat& grey() const { return photo_.grey(); }
-  [[nodiscard]] const ToneCurve& tone() const { return tone_; }
+  [[nodiscard]] const ToneCurve& tone() const { return scale_.tone; }
   [[nodiscard]] const EdgeOptions& options() const { return options_; }
 
   // The edge along `guess` in grey, where that has two points and it is seen; with a bound on its
@@ -78,7 +81,7 @@ class BladeView {
   [[nodiscard]] int LongSide() const;
 
   const Photo& photo_;
-  const ToneCurve& tone_;
+  const ScaleResult& scale_;
   const Scene& scene_;
   EdgeOptions options_;
   mutable std::once_flag decoded_;

@@ -25,7 +25,7 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, cons
 
 }  // namespace
 
-void BorrowInnerOne(const MirrorView& view,
+void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades) {

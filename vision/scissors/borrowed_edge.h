@@ -13,7 +13,7 @@ namespace bladecurve {
 // to be located by itself: as good as the other edge, the pivot and the trace are, and marked as
 // doubtful. Not where the pivot may account for the difference, nor about a head that may be none:
 // of that the edges say nothing.
-void BorrowInnerOne(const MirrorView& view,
+void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades);

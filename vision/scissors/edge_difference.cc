@@ -14,11 +14,11 @@ ChosenBlade OneOf(Blades* blades, bool upper) {
                : ChosenBlade{blades->lower, blades->upper};
 }
 
-double AsymmetryOf(const MirrorView& view,
+double AsymmetryOf(const BladeView& view,
                    const Pivot& pivot,
                    const LocatedBlade& a,
                    const LocatedBlade& b) {
-  return EdgeAsymmetry(SeenFromAbove(view.scale, PairOf(a, b), pivot.point_px), pivot.point_px);
+  return EdgeAsymmetry(SeenFromAbove(view.scale(), PairOf(a, b), pivot.point_px), pivot.point_px);
 }
 
 double ShareInPx(double share, const Pivot& pivot, const Blades& blades) {

@@ -16,7 +16,7 @@ struct ChosenBlade {
 [[nodiscard]] ChosenBlade OneOf(Blades* blades, bool upper);
 
 // EdgeAsymmetry of two blades, as seen from straight above where that is known.
-[[nodiscard]] double AsymmetryOf(const MirrorView& view,
+[[nodiscard]] double AsymmetryOf(const BladeView& view,
                                  const Pivot& pivot,
                                  const LocatedBlade& a,
                                  const LocatedBlade& b);

@@ -143,18 +143,14 @@ LocatedEdge WithBlurOf(const BladeView& view,
 
 }  // namespace
 
-BladeEdges LocateBlades(const Photo& photo,
-                        const ScaleResult& scale,
-                        const Scene& scene,
-                        Plan plan) {
-  const BladeView view(photo, scale, scene);
+BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   BladeEdges edges;
   ParallelFor(2, [&](int blade) {
     if (blade == 0) {
       edges.upper = Locate(view, true);
     } else {
       auto lower = UnlessRefused([&] { return Locate(view, false); });
-      edges.lower = lower ? *std::move(lower) : AsTraced(scene, false);
+      edges.lower = lower ? *std::move(lower) : AsTraced(view.scene(), false);
     }
   });
   LeaveOtherBlade(view, &edges);
@@ -164,29 +160,6 @@ BladeEdges LocateBlades(const Photo& photo,
   SettleByColour(view, plan, &edges);
   LeaveCastShadow(view, &edges);
   return edges;
-}
-
-LocatedEdge LocateBladeAlong(const Photo& photo,
-                             const ScaleResult& scale,
-                             const Scene& scene,
-                             const EdgeGuess& guess) {
-  return BladeView(photo, scale, scene).InGreyOrColours(guess);
-}
-
-std::optional<LocatedEdge> LocateBladeInShadow(const Photo& photo,
-                                               const ScaleResult& scale,
-                                               const Scene& scene,
-                                               const EdgeGuess& guess,
-                                               Shadow shadow) {
-  return BladeView(photo, scale, scene).InShadow(guess, shadow);
-}
-
-std::optional<LocatedEdge> LocateBladeWithinBand(const Photo& photo,
-                                                 const ScaleResult& scale,
-                                                 const Scene& scene,
-                                                 const LocatedEdge& edge,
-                                                 bool blade_on_left) {
-  return WithinBand(BladeView(photo, scale, scene), edge, blade_on_left);
 }
 
 }  // namespace bladecurve

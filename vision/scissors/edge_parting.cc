@@ -262,7 +262,7 @@ class Comparison {
 
 }  // namespace
 
-void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (!AssumesMirror(view, pivot) || pivot.bent) return;
   const bool may_agree =
       KnowsMirror(view, pivot) ? !AreUnlike(pivot.asymmetry) : AreAlike(pivot.asymmetry);
@@ -271,8 +271,10 @@ void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blade
   Comparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();
   try {
-    if (was_cut.upper) TrimToFree(view.photo, view.scene, &blades->upper, comparison.BeyondUpper());
-    if (was_cut.lower) TrimToFree(view.photo, view.scene, &blades->lower, comparison.BeyondLower());
+    if (was_cut.upper)
+      TrimToFree(view.photo(), view.scene(), &blades->upper, comparison.BeyondUpper());
+    if (was_cut.lower)
+      TrimToFree(view.photo(), view.scene(), &blades->lower, comparison.BeyondLower());
   } catch (const Refused&) {
     const bool edges_part = blades->edges_part;
     *blades = before;  // too little would be left

@@ -12,6 +12,6 @@ namespace bladecurve {
 // leaves its own course there, of both where either might. Edges of blades that are bent to one
 // side part as well, but as parabolas do, from end to end, or over more than a third of an edge:
 // they stay, the latter as `edges_part`.
-void CutWhereEdgesPart(const MirrorView& view, const Pivot& pivot, Blades* blades);
+void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve

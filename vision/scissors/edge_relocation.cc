@@ -39,7 +39,7 @@ bool IsBetter(const std::optional<RelocatedBlade>& found,
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it.
-void RelocateClearerOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, pivot, *blades);
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<RelocatedBlade> lower = LookWhereMirrored({view, pivot, blades->upper, line});
@@ -59,7 +59,7 @@ void RelocateClearerOne(const MirrorView& view, const Pivot& pivot, Blades* blad
 }
 
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
-void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
@@ -73,7 +73,7 @@ void RelocateDoubtfulOne(const MirrorView& view, const Pivot& pivot, Blades* bla
 
 // One of two edges that pass the pivot alike but are unlike in shape, as those of hardly any blades
 // are: where the other one puts it, if it is seen there and the two are alike then.
-std::optional<RelocatedBlade> LookForShape(const MirrorView& view,
+std::optional<RelocatedBlade> LookForShape(const BladeView& view,
                                            const Pivot& pivot,
                                            const Blades& blades,
                                            bool upper,
@@ -92,7 +92,7 @@ std::optional<RelocatedBlade> LookForShape(const MirrorView& view,
 // Whether edges are unlike in shape, and if so, what can be done: the one that is seen where the
 // other puts it is taken from there; if that holds of neither, or of both, the vaguer one is
 // doubted by as much as they differ.
-bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+bool SettleShapes(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kUnlike = 0.006;  // of the length; rendered ones differ by up to 0.003
   const double difference = ShapeDifference(view, pivot, *blades);
   if (difference < kUnlike) return false;
@@ -109,7 +109,7 @@ bool SettleShapes(const MirrorView& view, const Pivot& pivot, Blades* blades) {
 // Of edges more unlike than any view makes them, of which one is clear and the other is not, that
 // other one as clearly where the first puts it: it had been lost. The distal ends, seen better, say
 // where the mirror is.
-bool RelocateLostOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+bool RelocateLostOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kAsHigh = 0.5;   // of the clear one's step
   constexpr double kAside = 0.025;  // of the length; the lost one's end was found beside its edge
   if (!MayHaveLostOne(view, pivot, *blades)) return false;
@@ -135,7 +135,7 @@ void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
 // Where a slanted view may part the edges as well. What is told of the upper edge must be seen: the
 // lower one, mirrored, is as wrong as the slant. The lower one is not looked for: in photographs
 // other lines lie where a slanted view would have it.
-void RelocateInnerOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.5;  // of the way
   const auto [inner, other] = InnerOne(pivot, blades);
   const MirrorLine line = LineBetween(view, pivot, *blades);
@@ -150,7 +150,7 @@ void RelocateInnerOne(const MirrorView& view, const Pivot& pivot, Blades* blades
   Replace(*found, kWhereMirrored, &inner);
 }
 
-void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
@@ -173,16 +173,16 @@ void Relocate(const MirrorView& view, const Pivot& pivot, Blades* blades) {
 
 }  // namespace
 
-bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+bool MayHaveLostOne(const BladeView& view, const Pivot& pivot, const Blades& blades) {
   return AssumesMirror(view, pivot) && LieInNoPlane(pivot.asymmetry) &&
          IsClear(blades.upper.edge) != IsClear(blades.lower.edge);
 }
 
-void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades) {
+void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades) {
   const Blades blades_before = *blades;
   const Pivot pivot_before = *pivot;
   Relocate(view, *pivot, blades);
-  CompareEdges(view.scale, view.scene, PairOf(blades->upper, blades->lower), pivot);
+  CompareEdges(view.scale(), view.scene(), PairOf(blades->upper, blades->lower), pivot);
   if (!PassByPivot(pivot_before) || PassByPivot(*pivot)) return;
   *blades = blades_before;
   *pivot = pivot_before;

@@ -8,7 +8,7 @@ namespace bladecurve {
 
 // Whether one edge may have been lost: they are more unlike than any view makes them, and one is
 // clear while the other is not.
-[[nodiscard]] bool MayHaveLostOne(const MirrorView& view, const Pivot& pivot, const Blades& blades);
+[[nodiscard]] bool MayHaveLostOne(const BladeView& view, const Pivot& pivot, const Blades& blades);
 
 // Blades mirror each other about the line through the pivot, unless both are bent to one side.
 // Where the edges do not, one of them is looked for anew, trimmed, and pivot->asymmetry says how
@@ -28,6 +28,6 @@ namespace bladecurve {
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
 // not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
 // as those of scissors do stay where they were if they would hardly pass by it elsewhere.
-void RelocateUnlikeEdges(const MirrorView& view, Pivot* pivot, Blades* blades);
+void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
 
 }  // namespace bladecurve

@@ -33,16 +33,16 @@ LocatedEdgePoint MirrorLine::Reflected(LocatedEdgePoint point) const {
   return point;
 }
 
-bool KnowsMirror(const MirrorView& view, const Pivot& pivot) {
-  return view.scale.sheet && AssumesMirror(view, pivot);
+bool KnowsMirror(const BladeView& view, const Pivot& pivot) {
+  return view.scale().sheet && AssumesMirror(view, pivot);
 }
 
-bool AssumesMirror(const MirrorView& view, const Pivot& pivot) {
-  return view.scale.map && pivot.source != "geometry";
+bool AssumesMirror(const BladeView& view, const Pivot& pivot) {
+  return view.scale().map && pivot.source != "geometry";
 }
 
-MirrorLine LineBetween(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
-  const PlaneMap& map = *view.scale.map;
+MirrorLine LineBetween(const BladeView& view, const Pivot& pivot, const Blades& blades) {
+  const PlaneMap& map = *view.scale().map;
   const auto direction = [&](const LocatedBlade& blade) {
     return (map.PlaneFromImage(blade.used.back().trend_px) -
             map.PlaneFromImage(blade.used.front().trend_px))
@@ -53,8 +53,8 @@ MirrorLine LineBetween(const MirrorView& view, const Pivot& pivot, const Blades&
           (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 
-MirrorLine LineBetweenEnds(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
-  const PlaneMap& map = *view.scale.map;
+MirrorLine LineBetweenEnds(const BladeView& view, const Pivot& pivot, const Blades& blades) {
+  const PlaneMap& map = *view.scale().map;
   const Vector2d origin = map.PlaneFromImage(pivot.point_px);
   const auto direction = [&](const LocatedBlade& blade) {
     return (map.PlaneFromImage(blade.end.point_px) - origin).normalized();
@@ -62,7 +62,7 @@ MirrorLine LineBetweenEnds(const MirrorView& view, const Pivot& pivot, const Bla
   return {map, origin, (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 
-double ShapeDifference(const MirrorView& view, const Pivot& pivot, const Blades& blades) {
+double ShapeDifference(const BladeView& view, const Pivot& pivot, const Blades& blades) {
   constexpr double kMostOfIt = 0.8;
   const MirrorLine line = LineBetween(view, pivot, blades);
   std::vector<Vector2d> mirrored;  // from the pivot, ever further

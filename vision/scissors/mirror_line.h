@@ -4,12 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "vision/photo/photo.h"
 #include "vision/pivot/pivot.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scale/plane_map.h"
-#include "vision/scale/scale.h"
-#include "vision/scene/scene.h"
+#include "vision/scissors/blade_view.h"
 #include "vision/scissors/located_blade.h"
 
 namespace bladecurve {
@@ -30,36 +28,29 @@ struct MirrorLine {
   [[nodiscard]] LocatedEdgePoint Reflected(LocatedEdgePoint point) const;
 };
 
-// A photograph and what is known of it before the edges are compared.
-struct MirrorView {
-  const Photo& photo;
-  const ScaleResult& scale;
-  const Scene& scene;
-};
-
 // Whether edges are to mirror each other about a line through the pivot: markers tell the tilt of
 // the view, and the pivot lies not just where the edges do so.
-[[nodiscard]] bool KnowsMirror(const MirrorView& view, const Pivot& pivot);
+[[nodiscard]] bool KnowsMirror(const BladeView& view, const Pivot& pivot);
 
 // Whether there is a pivot about which edges may be compared although nobody knows the view's tilt:
 // edges that agree then tell much, edges that do not tell little.
-[[nodiscard]] bool AssumesMirror(const MirrorView& view, const Pivot& pivot);
+[[nodiscard]] bool AssumesMirror(const BladeView& view, const Pivot& pivot);
 
 // Through the pivot, halfway between the edges' directions: an edge that lies aside of its place
 // runs much as it should. Where the mirror is known.
-[[nodiscard]] MirrorLine LineBetween(const MirrorView& view,
+[[nodiscard]] MirrorLine LineBetween(const BladeView& view,
                                      const Pivot& pivot,
                                      const Blades& blades);
 
 // Through the pivot, halfway between the distal ends: where an edge was lost, not where it runs.
-[[nodiscard]] MirrorLine LineBetweenEnds(const MirrorView& view,
+[[nodiscard]] MirrorLine LineBetweenEnds(const BladeView& view,
                                          const Pivot& pivot,
                                          const Blades& blades);
 
 // How far one edge lies from the other's mirror image, turned about the pivot as far as fits them
 // best: what all but a fifth of it keeps to, as a share of the blades' length. Where the mirror is
 // known. 0 if they have nothing in common to compare.
-[[nodiscard]] double ShapeDifference(const MirrorView& view,
+[[nodiscard]] double ShapeDifference(const BladeView& view,
                                      const Pivot& pivot,
                                      const Blades& blades);
 

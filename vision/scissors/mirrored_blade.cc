@@ -11,7 +11,6 @@
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
-#include "vision/scissors/edge_pair.h"
 #include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
@@ -58,7 +57,7 @@ double Widened(const MirroredBladeSearch& search, double search_px) {
 template <typename Look>
 std::optional<RelocatedBlade> IfItFacesGap(const MirroredBladeSearch& search, const Look& look) {
   auto found = UnlessRefused([&] { return BladeWithEdge(search, look()); });
-  return found && FacesGap(search.view.scene, found->blade) ? std::move(found) : std::nullopt;
+  return found && FacesGap(search.view.scene(), found->blade) ? std::move(found) : std::nullopt;
 }
 
 }  // namespace
@@ -76,28 +75,22 @@ RelocatedBlade BladeWithEdge(const MirroredBladeSearch& search, LocatedEdge edge
   RelocatedBlade found;
   found.blade.on_left = !search.other.on_left;
   found.blade.edge = std::move(edge);
-  TrimToFree(search.view.photo, search.view.scene, &found.blade);
+  TrimToFree(search.view.photo(), search.view.scene(), &found.blade);
   found.asymmetry = AsymmetryOf(search.view, search.pivot, found.blade, search.other);
   return found;
 }
 
 std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search,
                                                double search_px) {
-  return IfItFacesGap(search, [&] {
-    return LocateBladeAlong(
-        search.view.photo, search.view.scale, search.view.scene, GuessWithin(search, search_px));
-  });
+  return IfItFacesGap(search,
+                      [&] { return search.view.InGreyOrColours(GuessWithin(search, search_px)); });
 }
 
 std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
                                            double search_px,
                                            Shadow shadow) {
   std::optional<LocatedEdge> edge =
-      LocateBladeInShadow(search.view.photo,
-                          search.view.scale,
-                          search.view.scene,
-                          GuessWithin(search, Widened(search, search_px)),
-                          shadow);
+      search.view.InShadow(GuessWithin(search, Widened(search, search_px)), shadow);
   if (!edge) return std::nullopt;
   return IfItFacesGap(search, [&] { return *std::move(edge); });
 }
@@ -118,7 +111,7 @@ void Replace(const RelocatedBlade& found, const char* where, LocatedBlade* blade
   blade->moved = where;
 }
 
-void MarkAsAssumed(const MirrorView& view, const Pivot& pivot, LocatedBlade* blade) {
+void MarkAsAssumed(const BladeView& view, const Pivot& pivot, LocatedBlade* blade) {
   if (!KnowsMirror(view, pivot))
     blade->edge.ambiguity = std::max(blade->edge.ambiguity, kAssumedAmbiguity);
 }

@@ -18,7 +18,7 @@ struct RelocatedBlade {
 
 // The look for one blade where the other's mirror image lies.
 struct MirroredBladeSearch {
-  const MirrorView& view;
+  const BladeView& view;
   const Pivot& pivot;
   const LocatedBlade& other;  // whose mirror image it is
   MirrorLine line;
@@ -53,6 +53,6 @@ void Replace(const RelocatedBlade& found, const char* where, LocatedBlade* blade
 inline constexpr double kAssumedAmbiguity = 0.6;
 
 // Doubts an edge that was found by symmetry, unless that is known to hold.
-void MarkAsAssumed(const MirrorView& view, const Pivot& pivot, LocatedBlade* blade);
+void MarkAsAssumed(const BladeView& view, const Pivot& pivot, LocatedBlade* blade);
 
 }  // namespace bladecurve

@@ -131,8 +131,8 @@ class BorderTest {
 };
 
 // Linear light across part of a trace, median along it.
-VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& part) {
-  const std::array<float, 256>& linear = view.scale.tone.linear;
+VectorXd ProfileAcross(const BladeView& view, const Trace& trace, const Part& part) {
+  const std::array<float, 256>& linear = view.scale().tone.linear;
   VectorXd profile(kTaps);
   std::vector<double> along;
   for (int k = 0; k < kTaps; ++k) {
@@ -140,7 +140,7 @@ VectorXd ProfileAcross(const MirrorView& view, const Trace& trace, const Part& p
     for (std::size_t i = part.first; i < part.end; ++i) {
       const Vector2d at = trace[i].trend_px + (k - kHalfTaps) * kTapPx * trace[i].normal;
       along.push_back(
-          Bilinear<uchar>(view.photo.grey(), at, [&](uchar grey) { return linear[grey]; }));
+          Bilinear<uchar>(view.photo().grey(), at, [&](uchar grey) { return linear[grey]; }));
     }
     profile[k] = Median(along);
   }
@@ -178,7 +178,7 @@ struct SeenPart {
   Taps taps;
 };
 
-std::vector<SeenPart> PartsSeen(const MirrorView& view,
+std::vector<SeenPart> PartsSeen(const BladeView& view,
                                 const Trace& trace,
                                 const LocatedBlade& inner,
                                 const LocatedBlade& other) {
@@ -253,7 +253,7 @@ struct SeenTrace {
 
 }  // namespace
 
-std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
+std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
                                                const LocatedBlade& inner,
                                                const LocatedBlade& other,
                                                const MirrorLine& line,

@@ -18,7 +18,7 @@ struct MirroredTrace {
 
 // Looks for the border outwards of where `inner`, a line on the blade, was found; the mirror's
 // direction is taken from the two edges and hence off by as much as they differ.
-[[nodiscard]] std::optional<MirroredTrace> FindMirroredTrace(const MirrorView& view,
+[[nodiscard]] std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
                                                              const LocatedBlade& inner,
                                                              const LocatedBlade& other,
                                                              const MirrorLine& line,

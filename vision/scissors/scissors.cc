@@ -10,6 +10,7 @@
 #include "vision/pivot/head_search.h"
 #include "vision/pivot/pivot_debug.h"
 #include "vision/refused.h"
+#include "vision/scissors/blade_view.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_pair.h"
 #include "vision/scissors/edge_parting.h"
@@ -20,17 +21,17 @@
 namespace bladecurve {
 namespace {
 
-Blades LocateAndTrim(const ScissorsView& view, const Scene& scene, StageLog* log) {
-  BladeEdges edges = LocateBlades(view.photo, view.scale, scene, log->plan());
+Blades LocateAndTrim(const BladeView& view, StageLog* log) {
+  BladeEdges edges = LocateBlades(view, log->plan());
   if (log->wants_pictures()) {
-    log->Picture("edge-upper", DrawEdge(view.photo.grey(), edges.upper));
-    log->Picture("edge-lower", DrawEdge(view.photo.grey(), edges.lower));
+    log->Picture("edge-upper", DrawEdge(view.grey(), edges.upper));
+    log->Picture("edge-lower", DrawEdge(view.grey(), edges.lower));
   }
   Blades blades{{true, std::move(edges.upper), {}, {}, {}},
                 {false, std::move(edges.lower), {}, {}, {}},
                 false};
-  TrimToFree(view.photo, scene, &blades.upper);
-  TrimToFree(view.photo, scene, &blades.lower);
+  TrimToFree(view.photo(), view.scene(), &blades.upper);
+  TrimToFree(view.photo(), view.scene(), &blades.lower);
   log->Ran("edges", "full resolution along the blades only");
   return blades;
 }
@@ -41,31 +42,33 @@ struct Parts {
   std::optional<Screw> at_joint;
 };
 
-Parts LocateParts(const ScissorsView& view, const Scene& scene, StageLog* log) {
+Parts LocateParts(const BladeView& view, const StoredHints& hints, StageLog* log) {
   Parts parts;
   ParallelFor(2, [&](int part) {
     if (part == 0) {
-      parts.blades = LocateAndTrim(view, scene, log);
-    } else if (!view.hints.pivot_px) {
-      parts.at_joint = LookAtJoint(view.photo.grey(), view.scale, scene);
+      parts.blades = LocateAndTrim(view, log);
+    } else if (!hints.pivot_px) {
+      parts.at_joint = LookAtJoint(view.grey(), view.scale(), view.scene());
     }
   });
   return parts;
 }
 
-Pivot LocatePivot(const ScissorsView& view, const Scene& scene, const Parts& parts, StageLog* log) {
-  const cv::Mat& grey = view.photo.grey();
+Pivot LocatePivot(const BladeView& view,
+                  const StoredHints& hints,
+                  const Parts& parts,
+                  StageLog* log) {
   const PivotSearch search{
-      scene, PairOf(parts.blades.upper, parts.blades.lower), view.hints.pivot_px, parts.at_joint};
-  Pivot pivot = FindPivot(grey, view.scale, search);
-  if (log->wants_pictures()) log->Picture("pivot", DrawPivot(grey, scene, pivot));
+      view.scene(), PairOf(parts.blades.upper, parts.blades.lower), hints.pivot_px, parts.at_joint};
+  Pivot pivot = FindPivot(view.grey(), view.scale(), search);
+  if (log->wants_pictures()) log->Picture("pivot", DrawPivot(view.grey(), view.scene(), pivot));
   log->Ran("pivot", pivot.source);
   return pivot;
 }
 
 // Edges that contradict each other or the pivot: one of them may have been taken elsewhere, where
 // the view is known, or lost.
-void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* log) {
+void Reconcile(const BladeView& view, Pivot* pivot, Blades* blades, StageLog* log) {
   if (!KnowsMirror(view, *pivot) && !MayHaveLostOne(view, *pivot, *blades))
     RefuseInconsistent(*pivot, *blades);
   RelocateUnlikeEdges(view, pivot, blades);
@@ -75,44 +78,44 @@ void Reconcile(const MirrorView& view, Pivot* pivot, Blades* blades, StageLog* l
 }
 
 // Where what was taken for the screw is none, the blades alone say where they turn.
-void DropFalseHead(const MirrorView& view, const Blades& blades, Pivot* pivot, StageLog* log) {
-  if (!IsFalseHead(*pivot, view.scale, blades)) return;
-  *pivot = PivotByBlades(view.scale, view.scene, PairOf(blades.upper, blades.lower));
+void DropFalseHead(const BladeView& view, const Blades& blades, Pivot* pivot, StageLog* log) {
+  if (!IsFalseHead(*pivot, view.scale(), blades)) return;
+  *pivot = PivotByBlades(view.scale(), view.scene(), PairOf(blades.upper, blades.lower));
   RefuseInconsistent(*pivot, blades);
   log->Ran("pivot-again", "geometry: about the faint head the edges are no mirror images");
 }
 
 // What the parts say of each other: refusals, what is cut off, and doubts.
-void CheckAgainstEachOther(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  RefuseContestedHead(pivot, view.scale);
-  RefuseUnlikeEdges(pivot, view.scale, *blades);
-  RefuseUnconfirmedScene(view.scene, pivot);
+void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  RefuseContestedHead(pivot, view.scale());
+  RefuseUnlikeEdges(pivot, view.scale(), *blades);
+  RefuseUnconfirmedScene(view.scene(), pivot);
   CutWhereEdgesPart(view, pivot, blades);
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
   DoubtSofterEdge(blades);
-  DoubtUnlikePrint(view.scale, blades);
-  DoubtLaterLook(view.scene, pivot, blades);
+  DoubtUnlikePrint(view.scale(), blades);
+  DoubtLaterLook(view.scene(), pivot, blades);
 }
 
-void SettleEnds(const MirrorView& view, const Pivot& pivot, Blades* blades) {
-  AgreeOnEnds(view.scale, pivot, blades);
+void SettleEnds(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  AgreeOnEnds(view.scale(), pivot, blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
-    KeepFree(view.scene, blade);
+    KeepFree(view.scene(), blade);
     PlaceEndOnCourse(blade);
   }
   KeepBeyondCrossing(blades);
   DoubtUnlikeEnds(pivot, blades);
 }
 
-Scissors LocateIn(const ScissorsView& view, Scene scene, StageLog* log) {
-  Parts parts = LocateParts(view, scene, log);
-  Pivot pivot = LocatePivot(view, scene, parts, log);
-  const MirrorView mirror_view{view.photo, view.scale, scene};
-  Reconcile(mirror_view, &pivot, &parts.blades, log);
-  DropFalseHead(mirror_view, parts.blades, &pivot, log);
-  CheckAgainstEachOther(mirror_view, pivot, &parts.blades);
-  SettleEnds(mirror_view, pivot, &parts.blades);
+Scissors LocateIn(const ScissorsView& seen, Scene scene, StageLog* log) {
+  const BladeView view(seen.photo, seen.scale, scene);
+  Parts parts = LocateParts(view, seen.hints, log);
+  Pivot pivot = LocatePivot(view, seen.hints, parts, log);
+  Reconcile(view, &pivot, &parts.blades, log);
+  DropFalseHead(view, parts.blades, &pivot, log);
+  CheckAgainstEachOther(view, pivot, &parts.blades);
+  SettleEnds(view, pivot, &parts.blades);
   return {std::move(scene), std::move(pivot), std::move(parts.blades)};
 }
 

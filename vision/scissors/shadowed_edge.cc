@@ -7,36 +7,32 @@
 #include <utility>
 #include <vector>
 
-#include "vision/edge/edge_margin.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_difference.h"
-#include "vision/scissors/edge_pair.h"
 #include "vision/scissors/mirrored_blade.h"
-#include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
 namespace {
 
 // The blade along the inner side of a band beside its edge that may be a shadow, if it is seen.
-std::optional<LocatedBlade> WithinBand(const MirrorView& view, const LocatedBlade& blade) {
-  std::optional<LocatedEdge> edge =
-      LocateBladeWithinBand(view.photo, view.scale, view.scene, blade.edge, blade.on_left);
+std::optional<LocatedBlade> BladeWithinBand(const BladeView& view, const LocatedBlade& blade) {
+  std::optional<LocatedEdge> edge = WithinBand(view, blade.edge, blade.on_left);
   if (!edge) return std::nullopt;
   return UnlessRefused([&] {
     LocatedBlade within = blade;
     within.edge = *std::move(edge);
-    TrimToFree(view.photo, view.scene, &within);
+    TrimToFree(view.photo(), view.scene(), &within);
     return within;
   });
 }
 
 // The kinds of shadow that an edge may be the border of. One that is brighter than the blade is a
 // margin within the edge; elsewhere any step to bright ground would look like its beginning.
-std::vector<Shadow> ShadowsWithin(const MirrorView& view, const LocatedBlade& blade) {
-  const auto margin = FindMargin(
-      view.photo.grey(), view.scale.tone, blade.edge, BladeOf(view.scene, blade.on_left).width_px);
+std::vector<Shadow> ShadowsWithin(const BladeView& view, const LocatedBlade& blade) {
+  const auto margin = view.MarginOf(blade.edge, blade.on_left);
   if (margin && margin->than_blade == Shadow::kBrighter)
     return {Shadow::kDarker, Shadow::kBrighter};
   return {Shadow::kDarker};
@@ -44,7 +40,7 @@ std::vector<Shadow> ShadowsWithin(const MirrorView& view, const LocatedBlade& bl
 
 }  // namespace
 
-bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+bool RelocateShadowedOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLeastPx = 1.5;       // a thinner band cannot be told from blur
   constexpr double kLeastShare = 0.004;  // of the length; blades are ground alike to less
   constexpr double kLeft = 0.3, kLeftByDoubtful = 0.5;  // of the difference
@@ -65,10 +61,11 @@ bool RelocateShadowedOne(const MirrorView& view, const Pivot& pivot, Blades* bla
   return false;
 }
 
-bool LeaveBothShadows(const MirrorView& view, const Pivot& pivot, Blades* blades) {
+bool LeaveBothShadows(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLeft = 0.5;  // of the difference
-  const std::optional<LocatedBlade> upper = WithinBand(view, blades->upper);
-  const std::optional<LocatedBlade> lower = upper ? WithinBand(view, blades->lower) : std::nullopt;
+  const std::optional<LocatedBlade> upper = BladeWithinBand(view, blades->upper);
+  const std::optional<LocatedBlade> lower =
+      upper ? BladeWithinBand(view, blades->lower) : std::nullopt;
   if (!lower) return false;
   const double asymmetry = AsymmetryOf(view, pivot, *upper, *lower);
   if (std::abs(asymmetry) > kLeft * std::abs(pivot.asymmetry)) return false;
