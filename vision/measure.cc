@@ -32,13 +32,13 @@ PlaneMap MapFor(const ScaleResult& scale,
                 const LocatedBlade& upper) {
   if (scale.map) return *scale.map;
   // --length-mm: the distance from the pivot to the upper distal end.
-  const double length_px =
-      (Undistorted(scale.lens, upper.end.point_px) - Undistorted(scale.lens, pivot.point_px))
-          .norm();
+  const double length_px = (Undistorted(scale.camera->camera, upper.end.point_px) -
+                            Undistorted(scale.camera->camera, pivot.point_px))
+                               .norm();
   const double sigma_px =
       std::sqrt(pivot.covariance_px2.trace() / 2 + std::pow(upper.end.along_sigma_px, 2));
   return PlaneMap::Uniform(
-      *options.length_mm / length_px, sigma_px / length_px, "length", scale.lens);
+      *options.length_mm / length_px, sigma_px / length_px, "length", scale.camera->camera);
 }
 
 std::vector<EdgePoint> ToFrame(const BladeFrame& frame,

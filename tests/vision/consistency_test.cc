@@ -79,6 +79,16 @@ TEST(RefuseInconsistent, TakesNoWhiteBladeOnWhiteForAnAngledOneOrAJaw) {
   EXPECT_EQ(ReasonFor(jaws, white), Reason::kLowContrast);
 }
 
+TEST(PartedByPivotPx, IsTwiceWhatThePivotMayLieAsideOfTheLineBetweenTheBlades) {
+  constexpr double kSigmaPx = 3;
+  Pivot pivot = PivotSeen(0);
+  const Blades blades = BladesWithRivals(0, 0);  // their line runs along x
+  pivot.covariance_px2 = Eigen::Vector2d(kSigmaPx * kSigmaPx, 0).asDiagonal();
+  EXPECT_NEAR(PartedByPivotPx(pivot, blades), 0, 1e-9);
+  pivot.covariance_px2 = Eigen::Vector2d(0, kSigmaPx * kSigmaPx).asDiagonal();
+  EXPECT_NEAR(PartedByPivotPx(pivot, blades), 2 * kSigmaPx, 1e-9);
+}
+
 TEST(RefuseContestedHead, SpeaksUpWhereAFaintHeadLiesFarFromWhereTheBladesPutThePivot) {
   const ScaleResult tilt_unknown;
   Pivot pivot = PivotSeen(0);

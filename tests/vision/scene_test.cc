@@ -238,6 +238,56 @@ TEST(FindBladePairs, TakesNoShanksForCutOffWhereBladesAre) {
   EXPECT_FALSE(pairs.front().shanks_run_out);
 }
 
+// Whatever touches a ring and reaches ahead beside a blade is no part of that.
+TEST(FindBladePairs, FindsTheTipsThoughAFingerThatHoldsARingReachesFurther) {
+  constexpr double kClosePx = 6, kPlain = 0.8;
+  cv::Mat mask = cv::Mat::zeros(460, 600, CV_8UC1);
+  const cv::Point joint(300, 200);
+  for (const int sign : {-1, 1}) {
+    const std::vector<cv::Point> blade{
+        {500, 200 - 70 * sign}, joint + cv::Point(-4, -18), joint + cv::Point(4, 18)};
+    cv::fillConvexPoly(mask, blade, 255);
+    cv::line(mask, joint, {130, 200 + 75 * sign}, 255, 16);
+    cv::circle(mask, {90, 200 + 92 * sign}, 40, 255, 14);
+  }
+  cv::line(mask, {90, 360}, {440, 390}, 255, 60);
+  const std::vector<BladePair> pairs = FindBladePairs(FindSilhouettes(mask, 1).front(), {});
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_GT(pairs.front().quality, kPlain);
+  for (const BladeContour* blade : {&pairs.front().first, &pairs.front().second}) {
+    const double off_px = std::min((blade->tip - Eigen::Vector2d(500, 130)).norm(),
+                                   (blade->tip - Eigen::Vector2d(500, 270)).norm());
+    EXPECT_LT(off_px, kClosePx);
+  }
+}
+
+// What the markers of a small card leave of it, seen a little from the side.
+TEST(SeenIn, TakesTheGapsBetweenMarkersForNoScissors) {
+  const cv::Size size(400, 400);
+  const auto seen_from_aside = [&](const std::vector<cv::Rect>& rectangles) {
+    cv::Mat square = cv::Mat::zeros(size, CV_8UC1), seen;
+    for (const cv::Rect& rectangle : rectangles) square(rectangle) = 255;
+    const std::vector<cv::Point2f> from{{100, 100}, {300, 100}, {300, 300}, {100, 300}};
+    const std::vector<cv::Point2f> to{{112, 98}, {305, 108}, {290, 300}, {98, 285}};
+    cv::warpPerspective(
+        square, seen, cv::getPerspectiveTransform(from, to), size, cv::INTER_NEAREST);
+    return seen;
+  };
+  const cv::Mat card = seen_from_aside({{100, 100, 200, 200}});
+  const cv::Mat hidden =
+      seen_from_aside({{98, 98, 97, 97}, {206, 98, 97, 97}, {98, 206, 97, 97}, {206, 206, 97, 97}});
+  const cv::Mat mask = card & ~hidden;
+  cv::Mat light;
+  mask.convertTo(light, CV_32FC1, 100.0 / 255);
+  Candidate like;
+  like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, size)});
+  const std::vector<BladePair> pairs = FindBladePairs(FindSilhouettes(mask, 1).front(), hidden);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_GT(pairs.front().quality, kAcceptedQuality) << "their outline alone looks like some";
+  for (const Candidate& c : SeenIn(mask, like, hidden, {}).candidates)
+    EXPECT_LT(c.pair.quality, kAcceptedQuality);
+}
+
 // Blades that the frame cuts on the left, two short limbs on the right.
 TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);

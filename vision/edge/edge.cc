@@ -121,6 +121,7 @@ LocatedEdge FitAlong(const ChosenTransition& chosen, bool blade_on_left, const P
   edge.ambiguity = std::max({chosen.ambiguity, 1 - chosen.support, gap / kMostBroken});
   edge.rival_px = chosen.rival_px;
   edge.rival_path_px = chosen.rival;
+  edge.rival_sigma_px = RivalSigma(chosen);
   edge.slope_sigma_px = SlopeSigma(fit);
   edge.common_sigma_px = CommonSigma(fit, picture.tone, chosen, options.blur_px.has_value());
   return edge;

@@ -152,6 +152,7 @@ struct Reduction {
     for (double* length_px : {&edge.blur_px,
                               &edge.correlation_px,
                               &edge.common_sigma_px,
+                              &edge.rival_sigma_px,
                               &edge.slope_sigma_px,
                               &edge.rival_px})
       *length_px *= factor;

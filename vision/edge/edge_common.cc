@@ -54,15 +54,13 @@ double BloomSigma(const EdgeFit& fit, bool blur_known) {
          std::sqrt(TotalBlurVariance(fit.blur_px));
 }
 
-// Nothing for a rival that is much worse; for one that is as good, most of the way to it: over
-// rendered scenes the rival is then the border almost every other time.
+}  // namespace
+
 double RivalSigma(const ChosenTransition& chosen) {
   constexpr double kNoRival = 0.45, kShare = 0.6;
   const double doubt = std::max(chosen.ambiguity - kNoRival, 0.0) / (1 - kNoRival);
   return doubt * kShare * std::abs(chosen.rival_px);
 }
-
-}  // namespace
 
 double SlopeSigma(const EdgeFit& fit) {
   constexpr double kReach = 5, kWrong = 0.35;  // px; share

@@ -16,6 +16,11 @@ namespace bladecurve {
                                  const ChosenTransition& chosen,
                                  bool blur_known);
 
+// The part of that which another transition makes: nothing for a rival that is much worse; for one
+// that is as good, most of the way to it: over rendered scenes the rival is then the border almost
+// every other time.
+[[nodiscard]] double RivalSigma(const ChosenTransition& chosen);
+
 // Light that slopes beside the edge is continued to it as a straight line, or a parabola: a third
 // of what it changes within reach may be wrong, and moves the half-way level.
 [[nodiscard]] double SlopeSigma(const EdgeFit& fit);

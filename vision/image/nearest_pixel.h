@@ -22,4 +22,11 @@ namespace bladecurve {
   return cv::Rect({}, mask.size()).contains(pixel) && mask.at<uchar>(pixel) != 0;
 }
 
+// Whether it is set there or up to two pixels beside, in both directions.
+[[nodiscard]] inline bool IsSetNear(const cv::Mat& mask, const Eigen::Vector2d& at_px) {
+  const cv::Point pixel = NearestPixel(at_px);
+  const cv::Rect near = cv::Rect(pixel.x - 2, pixel.y - 2, 5, 5) & cv::Rect({}, mask.size());
+  return !near.empty() && cv::countNonZero(mask(near)) > 0;
+}
+
 }  // namespace bladecurve

@@ -14,15 +14,33 @@ namespace {
 
 using Eigen::Vector2d;
 
+// How high the head stands, px.
+double HeightPx(const ScaleResult& scale, const Scene& scene, const Vector2d& head_px) {
+  constexpr double kOfShank = 0.4;  // of its width
+  const bool in_mm = scale.map && scale.map->source() != kPixelsSource;
+  if (!in_mm) return kOfShank * scene.shank_width_px;
+  return kHeadMm / std::sqrt(std::abs(scale.map->JacobianAt(head_px).determinant()));
+}
+
 // Seen a little from the side, the head is not where the axis meets the plane of the edges. Without
-// markers nobody knows from which side: heads are about a tenth of the shank's width high, views
-// about five degrees off.
+// markers nobody knows from which side: pictures taken from above are about three degrees off. A
+// camera near by shows what stands aside of the picture's middle from there; where it is not known,
+// nor whether the picture is but a part of another, that is no more than possible.
 PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene& scene) {
-  if (scale.sheet) {
+  if (scale.sheet)
     return FootOf(*scale.sheet, {head_px, scale.plane_height_mm, kHeadMm, kHeadSigmaMm});
-  }
-  const double sigma = 0.1 * scene.shank_width_px * std::tan(5 * std::numbers::pi / 180);
-  return {head_px, sigma * sigma * Eigen::Matrix2d::Identity()};
+  constexpr double kAsideRad = 3 * std::numbers::pi / 180, kKnown = 0.15;
+  const double height_px = HeightPx(scale, scene, head_px);
+  PlacePx foot{head_px, std::pow(height_px * kAsideRad, 2) * Eigen::Matrix2d::Identity()};
+  if (!scale.camera) return foot;
+  const Camera& camera = scale.camera->camera;
+  const Vector2d leaning =
+      height_px / camera.focal_length_px() * (head_px - camera.k.topRightCorner<2, 1>());
+  const bool known = scale.camera->log_focal_sigma < kKnown;
+  if (known) foot.point_px -= leaning;
+  foot.covariance_px2 +=
+      std::pow(known ? kHeadSigmaMm / kHeadMm : 1, 2) * leaning * leaning.transpose();
+  return foot;
 }
 
 // A rim that is hardly seen may be seen in parts, and parts of something else. Over heads rendered

@@ -65,9 +65,10 @@ bool NeedsSheet(const ScaleOptions& options) {
 // The map that needs no marker, if the options or the file say one.
 std::optional<PlaneMap> UniformMap(const Photo& photo,
                                    const ScaleOptions& options,
-                                   const Camera& lens) {
+                                   const std::optional<CameraKnowledge>& camera) {
   if (options.pixels) return PlaneMap::Uniform(1, 0, kPixelsSource);
-  if (options.mm_per_px) return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px", lens);
+  if (options.mm_per_px)
+    return PlaneMap::Uniform(*options.mm_per_px, 0, "mm-per-px", camera->camera);
   if (options.dpi) return FromDpi(*options.dpi, "dpi");
   if (!photo.metadata().dpi || NeedsSheet(options)) return std::nullopt;
   return FromDpi(*photo.metadata().dpi, "file-dpi").WithWarnings({"scale_from_file_dpi"});
@@ -92,16 +93,18 @@ ScaleResult FindScale(const Photo& photo, const ScaleOptions& options) {
   CheckOptions(options);
   ScaleResult result;
   result.tone = SrgbToneCurve();
-  if (options.camera && (options.mm_per_px || options.length_mm))
-    result.lens = ReadCamera(*options.camera, photo.grey().cols, photo.grey().rows);
-  if (options.length_mm) return result;
+  if (options.length_mm) {
+    result.camera = KnowCamera(photo, options.camera);
+    return result;
+  }
   if (options.marker_mm) return ScaleFromLooseMarkers(photo, options);
   if (options.card) return ScaleFromCard(photo, options);
   if (!SaysUniform(options)) {
     std::optional<ScaleResult> card = ScaleFromCardIfSeen(photo, options);
     if (card) return *std::move(card);
   }
-  result.map = UniformMap(photo, options, result.lens);
+  if (options.mm_per_px || options.pixels) result.camera = KnowCamera(photo, options.camera);
+  result.map = UniformMap(photo, options, result.camera);
   if (!result.map) RefuseWithoutScale();
   return result;
 }

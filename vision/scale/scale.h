@@ -17,10 +17,7 @@
 
 namespace bladecurve {
 
-// How well users know what they give, standard uncertainties: a camera calibrated with care and
-// refocused since, a height measured with a caliper or a ruler.
-inline constexpr double kCalibratedFocalSigma = 0.002;  // relative
-inline constexpr double kCalibratedK1Sigma = 0.002;
+// How well users know a height that they measure with a caliper or a ruler, standard uncertainty.
 inline constexpr double kGivenHeightSigmaMm = 0.1;
 
 // What the user said about scale; at most one of the first five.
@@ -57,10 +54,10 @@ struct SeenMarker {
 };
 
 struct ScaleResult {
-  std::optional<PlaneMap> map;         // absent only while length_mm waits for the scene
-  Camera lens;                         // of the map that then is made
-  std::optional<SheetSolution> sheet;  // where markers say how the camera stands over it
-  double plane_height_mm = 0;          // of the map's plane over the sheet
+  std::optional<PlaneMap> map;            // absent only while length_mm waits for the scene
+  std::optional<CameraKnowledge> camera;  // without a sheet; of a scan none
+  std::optional<SheetSolution> sheet;     // where markers say how the camera stands over it
+  double plane_height_mm = 0;             // of the map's plane over the sheet
   std::vector<SeenMarker> markers;
   ToneCurve tone;  // sRGB, with what is uncertain about it
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "vision/scale/camera.h"
+#include "vision/scale/known_camera.h"
 #include "vision/scale/plane_map.h"
 
 namespace bladecurve {
@@ -19,13 +20,6 @@ struct SquareObservation {
   double sigma_px = 0;  // of a corner, each way
   std::optional<std::array<Eigen::Vector2d, 4>>
       corners_mm;  // y up; absent: lies anywhere on the sheet
-};
-
-// What is known of the camera beforehand. A sigma of zero: exactly.
-struct CameraKnowledge {
-  Camera camera;
-  double log_focal_sigma = 0;
-  double k1_sigma = 0;
 };
 
 struct SheetProblem {

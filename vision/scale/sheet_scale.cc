@@ -12,6 +12,7 @@
 
 #include "vision/refused.h"
 #include "vision/scale/card.h"
+#include "vision/scale/known_camera.h"
 #include "vision/scale/marker_corners.h"
 #include "vision/scale/print_tone.h"
 #include "vision/scale/sheet_pose.h"
@@ -20,13 +21,6 @@ namespace bladecurve {
 namespace {
 
 // Standard uncertainties of what is known beforehand.
-constexpr double kExifFocal =
-    0.03;  // whole millimetres of some 28, and the crop that stabilisation takes
-constexpr double kUnknownFocal =
-    0.6;  // 0.65 to 2.2 times the long side covers phones to short telephoto lenses
-constexpr double kUnknownFocalPerSide = 1.2;
-constexpr double kUnknownK1 = 0.02;  // cameras correct their lenses to half a percent at the corner
-
 constexpr double kInkSpreadMm = 0.05;  // of laser and inkjet prints on plain paper, each side
 
 constexpr double kUnknownHeightMm = 2.0;  // cutting edges lie 0.5 to 4 mm above the table
@@ -61,17 +55,6 @@ std::vector<std::string> Warnings(const SheetSolution& solution,
           markers.begin(), markers.end(), [](const SeenMarker& m) { return m.overexposed; }))
     warnings.emplace_back("marker_overexposed");
   return warnings;
-}
-
-// What the camera is known to be: CALIB.json, else EXIF's focal length, else what most cameras are.
-CameraKnowledge KnowCamera(const Photo& photo, const ScaleOptions& options) {
-  const int width = photo.grey().cols, height = photo.grey().rows;
-  if (options.camera)
-    return {ReadCamera(*options.camera, width, height), kCalibratedFocalSigma, kCalibratedK1Sigma};
-  const std::optional<double> exif = photo.metadata().focal_length_px;
-  if (exif) return {CentredCamera(*exif, width, height), kExifFocal, kUnknownK1};
-  const double guess = kUnknownFocalPerSide * std::max(width, height);
-  return {CentredCamera(guess, width, height), kUnknownFocal, kUnknownK1};
 }
 
 // Blades lie between the sheet and the camera, by far nearer to the sheet.
@@ -239,7 +222,7 @@ ScaleResult SolveCard(const Photo& photo,
                       const Card& printed,
                       const std::vector<SeenMarker>& seen) {
   const Card card = Scaled(printed, options.print_scale);
-  const CameraKnowledge camera = KnowCamera(photo, options);
+  const CameraKnowledge camera = KnowCamera(photo, options.camera);
   const ProblemFrom problem = [&](const std::vector<SeenMarker>& markers) {
     return CardProblem(markers, card, camera);
   };
@@ -253,7 +236,7 @@ std::vector<Card> BuiltInCards() { return {BuiltInCard(Paper::kA4), BuiltInCard(
 ScaleResult ScaleFromLooseMarkers(const Photo& photo, const ScaleOptions& options) {
   const std::vector<SeenMarker> markers =
       FindMarkers(photo.grey(), SrgbToneCurve(), MarkerEffort::kThorough);
-  const CameraKnowledge camera = KnowCamera(photo, options);
+  const CameraKnowledge camera = KnowCamera(photo, options.camera);
   return Solve(photo, options, markers, [&](const std::vector<SeenMarker>& seen) {
     return LooseProblem(seen, *options.marker_mm, camera);
   });

@@ -74,10 +74,10 @@ std::optional<Ends> FindEnds(const Outline& outline, const Crossing& at) {
   const Vector2d crotch = outline.At(gap), shank_crotch = outline.At(back);
   const Vector2d axis = (crotch - shank_crotch).normalized();
   Ends ends;
-  ends.tip_first_at = FurthestAhead(outline, back, gap, crotch, axis);
-  ends.tip_second_at = FurthestAhead(outline, gap, back, crotch, axis);
-  ends.shank_first_at = FurthestAhead(outline, gap, back, shank_crotch, -axis);
-  ends.shank_second_at = FurthestAhead(outline, back, gap, shank_crotch, -axis);
+  ends.tip_first_at = LimbEnd(outline, gap, back, Way::kBack, axis);
+  ends.tip_second_at = LimbEnd(outline, gap, back, Way::kOn, axis);
+  ends.shank_first_at = LimbEnd(outline, back, gap, Way::kBack, -axis);
+  ends.shank_second_at = LimbEnd(outline, back, gap, Way::kOn, -axis);
   if (std::min({ends.tip_first_at, ends.tip_second_at, ends.shank_first_at, ends.shank_second_at}) <
       0)
     return std::nullopt;

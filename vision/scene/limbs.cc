@@ -59,9 +59,7 @@ bool RunsOutOfSight(const std::vector<Vector2d>& points,
                     const cv::Size& size) {
   const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
   return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
-    const cv::Point at = NearestPixel(p);
-    if (!inner.contains(at)) return true;
-    return !hidden.empty() && cv::countNonZero(hidden(cv::Rect(at.x - 2, at.y - 2, 5, 5))) > 0;
+    return !inner.contains(NearestPixel(p)) || (!hidden.empty() && IsSetNear(hidden, p));
   });
 }
 
@@ -109,19 +107,21 @@ std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
   return inlets;
 }
 
-int FurthestAhead(
-    const Outline& outline, int from, int to, const Vector2d& origin, const Vector2d& direction) {
-  int best = -1;
-  double best_squared = 0;
-  const int steps = outline.Wrap(to - from);
+int LimbEnd(const Outline& outline, int from, int to, Way way, const Vector2d& direction) {
+  constexpr double kLimb = 0.5;  // of the furthest; ragged outlines go to and fro by less
+  const Vector2d crotch = outline.At(from);
+  const int sign = way == Way::kOn ? 1 : -1, steps = outline.Wrap(sign * (to - from));
+  std::vector<double> reach;  // 0: beside the crotch, or behind it
   for (int k = 0; k <= steps; ++k) {
-    const Vector2d offset = outline.At(from + k) - origin;
-    if (offset.dot(direction) > 0 && offset.squaredNorm() > best_squared) {
-      best_squared = offset.squaredNorm();
-      best = outline.Wrap(from + k);
-    }
+    const Vector2d offset = outline.At(from + sign * k) - crotch;
+    reach.push_back(offset.dot(direction) > 0 ? offset.norm() : 0);
   }
-  return best;
+  const auto furthest = std::max_element(reach.begin(), reach.end());
+  if (*furthest == 0) return -1;
+  const auto on_limb =
+      std::find_if(reach.begin(), furthest, [&](double r) { return r >= kLimb * *furthest; });
+  const auto limb_end = std::max_element(reach.begin(), std::find(on_limb, furthest, 0.0) + 1);
+  return outline.Wrap(from + sign * static_cast<int>(limb_end - reach.begin()));
 }
 
 std::vector<Run> RunsAcross(const cv::Mat& filled,

@@ -63,13 +63,15 @@ class Outline {
 // The inlets that are too deep for ragged borders and the waists of rings, in contour order.
 [[nodiscard]] std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour);
 
-// Index on the arc `from`..`to` of the point furthest from `origin`, among those that lie ahead of
-// it in `direction`; -1 if none does.
-[[nodiscard]] int FurthestAhead(const Outline& outline,
-                                int from,
-                                int to,
-                                const Eigen::Vector2d& origin,
-                                const Eigen::Vector2d& direction);
+// Which way along an outline.
+enum class Way { kOn, kBack };
+
+// The end of the limb whose outline leaves a crotch, the point `from`, that way towards `to`: index
+// of the point furthest from there, among those that lie ahead of it in `direction`, before the
+// outline comes back to beside the crotch; -1 if none does. What touches another limb is no part of
+// it, however far ahead that reaches.
+[[nodiscard]] int LimbEnd(
+    const Outline& outline, int from, int to, Way way, const Eigen::Vector2d& direction);
 
 // A piece of a line that lies in a silhouette, px along the line.
 struct Run {

@@ -86,6 +86,20 @@ void DoubtSoftEdges(Candidate* candidate) {
   candidate->pair.doubt = "an edge is soft like a shadow's";
 }
 
+// An edge along what is hidden was drawn by that, as the gaps between the markers of a card are.
+void DoubtEdgesOfHidden(const cv::Mat& hidden, Candidate* candidate) {
+  constexpr double kMost = 0.5;  // of the edge
+  if (hidden.empty()) return;
+  for (const BladeContour* blade : {&candidate->pair.first, &candidate->pair.second}) {
+    const auto along = std::count_if(blade->inner.begin(),
+                                     blade->inner.end(),
+                                     [&](const Vector2d& p) { return IsSetNear(hidden, p); });
+    if (static_cast<double>(along) <= kMost * static_cast<double>(blade->inner.size())) continue;
+    candidate->pair.quality = candidate->pair.worst_grade = 0;
+    candidate->pair.doubt = "an edge is the border of a marker's paper";
+  }
+}
+
 // What a mask shows besides `one` thing, without specks.
 cv::Mat OtherThings(const cv::Mat& mask, const Silhouette& one, double least_area) {
   cv::Mat rest = mask.clone();
@@ -190,6 +204,7 @@ Rung SeenIn(const cv::Mat& mask,
       JudgeEdges(pair, &candidate);
       candidate.pair = std::move(pair);
       if (!like.outlined) DoubtSoftEdges(&candidate);
+      DoubtEdgesOfHidden(hidden, &candidate);
       candidate.mask = mask;
       quality = candidate.pair.quality;
       seen.candidates.push_back(std::move(candidate));

@@ -18,7 +18,7 @@ LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, cons
   for (LocatedEdgePoint& p : edge.points) p = trace.line.Reflected(p);
   edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot.SigmaPx());
   edge.ambiguity = kAssumedAmbiguity;
-  edge.rival_px = 0;
+  edge.rival_px = edge.rival_sigma_px = 0;
   edge.rival_path_px.clear();
   return edge;
 }

@@ -28,7 +28,7 @@ EdgeGuess Within(const LocatedEdge& edge, double nearest_px, double farthest_px,
 }
 
 // The edge as much further in as the shadow is wide, if light clearly changes there, as it does not
-// where the margin is but shading; doubted all the same.
+// where the margin is but shading; doubted all the same, the shadow's border being its rival.
 LocatedEdge WhereShadowBegins(const BladeView& view,
                               LocatedEdge edge,
                               const Margin& shadow,
@@ -41,7 +41,7 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
       view.InShadow(Within(edge, shadow.width_px - reach_px, shadow.width_px + reach_px, left),
                     shadow.than_blade);
   if (!begins || begins->ambiguity > kUnclear) return edge;
-  Doubt(&*begins, kDoubt * shadow.width_px);
+  DoubtForRival(&*begins, shadow.width_px, kDoubt * shadow.width_px);
   return *std::move(begins);
 }
 

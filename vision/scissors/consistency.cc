@@ -43,16 +43,11 @@ void RefuseOutOfPlane(const Pivot& pivot, const Blades& blades) {
           " of the blade's length); angled or bent blades cannot be measured from one view");
 }
 
-double BladeLength(const Pivot& pivot, const Blades& blades) {
-  return 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
-                (blades.lower.end.point_px - pivot.point_px).norm());
-}
-
 // Blades that open little do not say how far behind them they turn.
 void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
   constexpr double kVaguest = 0.14;  // of the blades' length; theta is then good to a seventh
   if (pivot.source != "geometry") return;
-  const double length_px = BladeLength(pivot, blades);
+  const double length_px = BladeLengthPx(pivot, blades);
   const double sigma_px = std::sqrt(pivot.covariance_px2.trace());
   if (sigma_px <= kVaguest * length_px) return;
   throw Refused(Reason::kAmbiguousPivot,
@@ -92,6 +87,18 @@ void AddSigma(LocatedEdge* edge, double off_px) {
 
 }  // namespace
 
+double BladeLengthPx(const Pivot& pivot, const Blades& blades) {
+  return 0.5 * ((blades.upper.end.point_px - pivot.point_px).norm() +
+                (blades.lower.end.point_px - pivot.point_px).norm());
+}
+
+double PartedByPivotPx(const Pivot& pivot, const Blades& blades) {
+  const Eigen::Vector2d ahead = (blades.upper.end.point_px - pivot.point_px).normalized() +
+                                (blades.lower.end.point_px - pivot.point_px).normalized();
+  const Eigen::Vector2d across = Eigen::Vector2d(-ahead.y(), ahead.x()).normalized();
+  return 2 * std::sqrt(across.dot(pivot.covariance_px2 * across));
+}
+
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseOutOfPlane(pivot, blades);
   RefuseJaws(pivot, blades);
@@ -117,8 +124,7 @@ bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& bla
 
 void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
   if (!AreFarUnlikeAboutScrew(pivot, scale)) return;
-  // A pivot that lies aside adds to one distance and takes from the other.
-  const double by_pivot = 2 * pivot.SigmaPx() / BladeLength(pivot, blades);
+  const double by_pivot = PartedByPivotPx(pivot, blades) / BladeLengthPx(pivot, blades);
   if (!AreFarUnlike(std::max(0.0, std::abs(pivot.asymmetry) - by_pivot))) return;
   throw Refused(Reason::kLowContrast,
                 "edges: the two cutting edges are not each other's mirror images: they pass by the "
@@ -173,11 +179,17 @@ void Doubt(LocatedEdge* edge, double off_px) {
   AddSigma(edge, off_px);
 }
 
+void DoubtForRival(LocatedEdge* edge, double rival_px, double off_px) {
+  Doubt(edge, off_px);
+  edge->rival_px = rival_px;
+  edge->rival_sigma_px = std::hypot(edge->rival_sigma_px, off_px);
+}
+
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   constexpr double kOff = 0.1;    // sigma, of how unlike they pass; over annotated photographs
   constexpr double kShare = 0.6;  // sigma, of the way to the other one
   if (!PassUnlike(pivot)) return;
-  const double length_px = BladeLength(pivot, *blades);
+  const double length_px = BladeLengthPx(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     AddSigma(&edge, kOff * pivot.asymmetry * length_px);
@@ -238,14 +250,14 @@ void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
   constexpr double kOfLength = 0.01;  // over annotated photographs
   if (!scene.second_look) return;
   for (LocatedBlade* blade : {&blades->upper, &blades->lower})
-    AddSigma(&blade->edge, kOfLength * BladeLength(pivot, *blades));
+    AddSigma(&blade->edge, kOfLength * BladeLengthPx(pivot, *blades));
 }
 
 void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
   constexpr double kOfDifference = 0.3;
   if (!PassUnlike(pivot)) return;
   const double turned_px =
-      kOfDifference * std::abs(pivot.asymmetry) * BladeLength(pivot, *blades) / std::sqrt(2.0);
+      kOfDifference * std::abs(pivot.asymmetry) * BladeLengthPx(pivot, *blades) / std::sqrt(2.0);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower})
     blade->end.across_sigma_px = std::hypot(blade->end.across_sigma_px, turned_px);
 }

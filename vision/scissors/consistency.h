@@ -9,6 +9,13 @@
 
 namespace bladecurve {
 
+// From the pivot to the distal ends, px.
+[[nodiscard]] double BladeLengthPx(const Pivot& pivot, const Blades& blades);
+
+// By how much the pivot's uncertainty parts the edges, px: where it lies aside of the line between
+// the blades, that adds to the distance at which one passes it and takes as much from the other's.
+[[nodiscard]] double PartedByPivotPx(const Pivot& pivot, const Blades& blades);
+
 // Throws Refused where edges and pivot cannot be those of flat scissors: kOutOfPlane for angled
 // blades, kNotScissors for jaws that meet instead of crossing, kAmbiguousPivot where neither a
 // screw nor the blades tell where they turn.
@@ -24,6 +31,9 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
 // Makes an edge ambiguous, and less certain by so much: it may lie that far off.
 void Doubt(LocatedEdge* edge, double off_px);
+
+// The same for the sake of another line beside it, so far out of the blade, that may be its border.
+void DoubtForRival(LocatedEdge* edge, double rival_px, double off_px);
 
 // Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
 // and seen from a known side, are no mirror images about it by far.

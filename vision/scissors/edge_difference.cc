@@ -22,12 +22,12 @@ double AsymmetryOf(const BladeView& view,
 }
 
 double ShareInPx(double share, const Pivot& pivot, const Blades& blades) {
-  return share * (blades.upper.end.point_px - pivot.point_px).norm();
+  return share * BladeLengthPx(pivot, blades);
 }
 
 bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
   constexpr double kSigmas = 3;
-  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * 2 * pivot.SigmaPx();
+  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * PartedByPivotPx(pivot, blades);
 }
 
 bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {

@@ -29,6 +29,7 @@ void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower) {
   narrower->ambiguity = wider.ambiguity;
   narrower->rival_px = wider.rival_px;
   narrower->rival_path_px = wider.rival_path_px;
+  narrower->rival_sigma_px = wider.rival_sigma_px;
   narrower->common_sigma_px = std::max(narrower->common_sigma_px, wider.common_sigma_px);
 }
 

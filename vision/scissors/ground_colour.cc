@@ -34,7 +34,7 @@ void LeaveLightAlone(const BladeView& view,
     *edge = *std::move(again);
     return;
   }
-  Doubt(edge, std::abs(border->offset_px));
+  DoubtForRival(edge, border->offset_px, std::abs(border->offset_px));
 }
 
 bool LeavesDoubt(const LocatedEdge& edge) {

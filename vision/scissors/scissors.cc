@@ -11,6 +11,7 @@
 #include "vision/pivot/pivot_debug.h"
 #include "vision/refused.h"
 #include "vision/scissors/blade_view.h"
+#include "vision/scissors/confirmed_edge.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_pair.h"
 #include "vision/scissors/edge_parting.h"
@@ -91,6 +92,7 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
   RefuseUnlikeEdges(pivot, view.scale(), *blades);
   RefuseUnconfirmedScene(view.scene(), pivot);
   CutWhereEdgesPart(view, pivot, blades);
+  ConfirmMirroredEdges(view, pivot, blades);
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
   DoubtSofterEdge(blades);

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/confirmed_edge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "vision/scissors/consistency.h"
+
+namespace bladecurve {
+namespace {
+
+// Of an edge's place, but for what its rival makes of it.
+double SigmaWithoutRival(const LocatedEdge& edge) {
+  return std::sqrt(
+      std::max(0.0, std::pow(edge.common_sigma_px, 2) - std::pow(edge.rival_sigma_px, 2)));
+}
+
+// By how much the edges would pass the pivot more unequally, signed as their asymmetry, px, if the
+// transition beside this one were its border.
+double ByRivalPx(const LocatedBlade& blade) {
+  return (blade.on_left ? 1 : -1) * blade.edge.rival_px;
+}
+
+// The ways in which the other edge may pass.
+std::vector<double> WaysOf(const LocatedBlade& blade) {
+  if (blade.edge.rival_sigma_px > 0) return {0, ByRivalPx(blade)};
+  return {0};
+}
+
+}  // namespace
+
+void ConfirmMirroredEdges(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kAlike = 1.5, kUnlike = 4;  // standard uncertainties
+  constexpr double kGroundAlike = 0.002;       // of the length
+  if (!KnowsMirror(view, pivot) || pivot.bent) return;
+  if (!blades->upper.moved.empty() || !blades->lower.moved.empty()) return;
+  const double length_px = BladeLengthPx(pivot, *blades);
+  const double sigma_px =
+      std::hypot(std::hypot(PartedByPivotPx(pivot, *blades), kGroundAlike * length_px),
+                 SigmaWithoutRival(blades->upper.edge),
+                 SigmaWithoutRival(blades->lower.edge));
+  const double apart_px = pivot.asymmetry * length_px;
+  if (std::abs(apart_px) > kAlike * sigma_px) return;
+  const std::array<LocatedBlade*, 2> both{&blades->upper, &blades->lower};
+  std::array<bool, 2> confirmed{};
+  for (const std::size_t i : {0, 1}) {
+    const std::vector<double> ways = WaysOf(*both[1 - i]);
+    confirmed[i] =
+        both[i]->edge.rival_sigma_px > 0 && std::all_of(ways.begin(), ways.end(), [&](double way) {
+          return std::abs(apart_px + ByRivalPx(*both[i]) + way) > kUnlike * sigma_px;
+        });
+  }
+  for (const std::size_t i : {0, 1}) {
+    if (!confirmed[i]) continue;
+    LocatedEdge& edge = both[i]->edge;
+    edge.common_sigma_px = SigmaWithoutRival(edge);
+    edge.rival_sigma_px = 0;
+    edge.ambiguity = std::min(edge.ambiguity, kAsGood);
+  }
+}
+
+}  // namespace bladecurve
