@@ -8,6 +8,7 @@
 #include <random>
 
 #include "vision/pivot/head_place.h"
+#include "vision/render/render.h"
 #include "vision/scale/scale.h"
 
 namespace bladecurve {
@@ -20,7 +21,8 @@ void Close(SceneSpec* spec) {
       -3 * std::numbers::pi / 180;  // the blades have passed each other, as in a drawer
 }
 
-// Moves the scissors along their axis until their tips are a quarter of a blade outside.
+// Moves the scissors along their axis until their tips are a quarter of a blade outside; further
+// where they open so wide, or the camera leans so much, that both stay in the picture.
 void CutOffTips(SceneSpec* spec) {
   const Eigen::Vector2d ahead(std::cos(spec->heading_rad), std::sin(spec->heading_rad));
   const double half_width_mm = 0.5 * spec->width * spec->camera.mm_per_px;
@@ -28,6 +30,9 @@ void CutOffTips(SceneSpec* spec) {
   const double to_border_mm =
       std::min(half_width_mm / std::abs(ahead.x()), half_height_mm / std::abs(ahead.y()));
   spec->pivot_mm = (to_border_mm - 0.75 * spec->scissors.length_mm) * ahead;
+  constexpr double kFurther = 0.1;  // of a blade
+  while (TruthOf(*spec).tips_in_frame)
+    spec->pivot_mm += kFurther * spec->scissors.length_mm * ahead;
 }
 
 // Box and Muller 1958; the distributions of the standard library differ from one to the next.

@@ -156,6 +156,14 @@ TEST(MakeValidationScene, RefusesEveryTenthSceneForItsOwnReason) {
   }
 }
 
+TEST(MakeValidationScene, CutsATipOffHoweverWideTheBladesOpen) {
+  for (int number = 19; number < 1000; number += 30) {
+    const ValidationScene scene = MakeValidationScene(number, 21, Difficulty::kHard);
+    ASSERT_EQ(scene.refuse, Reason::kBladesNotVisible);
+    EXPECT_FALSE(TruthOf(scene.spec).tips_in_frame) << number;
+  }
+}
+
 // Mean and standard deviation.
 std::pair<double, double> MeanAndSpread(const std::vector<double>& values) {
   double sum = 0, squares = 0;

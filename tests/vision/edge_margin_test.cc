@@ -36,6 +36,7 @@ LocatedEdge UprightEdge() {
     LocatedEdgePoint point;
     point.point_px = point.trend_px = {kEdgeX, static_cast<double>(y)};
     point.normal = {1, 0};
+    point.contrast = (kGround - kBlade) / 255;
     edge.points.push_back(point);
   }
   return edge;
@@ -80,6 +81,26 @@ TEST(FindMargin, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
   EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
       << "a bright blade";
+}
+
+std::optional<Margin> LineIn(const std::function<double(double)>& light) {
+  return FindDarkLine(PictureOf(light), testing::GammaCurve(1), UprightEdge(), kBladePx);
+}
+
+TEST(FindDarkLine, MeasuresWhatIsAsNarrowAsBlur) {
+  for (const double width_px : {1.5, 2.0, 2.75}) {
+    const auto line = LineIn([&](double d) { return WithMargin(d, width_px); });
+    ASSERT_TRUE(line) << width_px;
+    EXPECT_NEAR(line->width_px, width_px, 0.8);
+  }
+}
+
+TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
+  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 0); }));
+  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 6); })) << "a margin";
+  EXPECT_FALSE(LineIn([](double d) {
+    return kDark + (1 - std::exp(d / 4)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
+  })) << "shading";
 }
 
 TEST(BandBeside, LiesBetweenAnEdgeAndItsRival) {

@@ -350,6 +350,20 @@ TEST(RelocateUnlikeEdges, TakesNoVaguerEdgeWherePivotsThatLieAsideMayPutIt) {
   }
 }
 
+// As a bevel's line is a higher step than the border of a blade as bright as its ground.
+TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAHigherStepUnlessThePivotMayHavePartedThem) {
+  constexpr double kAsidePx = 8, kSurePx = 0.3, kUnsurePx = 3;
+  for (const double pivot_sigma_px : {kSurePx, kUnsurePx}) {
+    Measured measured{SceneWithMarkers()};
+    measured.Misplace(&measured.blades.upper, kAsidePx);
+    Measured::MakeClear(&measured.blades.upper);
+    measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.upper.moved.empty(), pivot_sigma_px == kUnsurePx)
+        << measured.blades.upper.moved;
+  }
+}
+
 // An oblique view parts clear edges as well.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
   Measured measured = WithMirroringBevelBelow();

@@ -112,6 +112,36 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
 }
 
+std::optional<Margin> FindDarkLine(const cv::Mat& grey,
+                                   const ToneCurve& tone,
+                                   const LocatedEdge& edge,
+                                   double blade_px) {
+  constexpr double kNarrowestPx = 1, kWidestPx = 3, kOfBlade = 0.06;
+  constexpr double kGroundPx = 3, kStepPx = 0.25, kFlankPx = 2.5;
+  constexpr double kDeep = 0.2;  // of the step to the ground
+  constexpr double kSteep = 2;   // times as much as light falls off further in
+  if (TypicalContrast(edge) <= 0) return std::nullopt;
+  const Across light_at = [&](double across) {
+    return TypicalLight(grey, tone, edge, across).value_or(0);
+  };
+  double darkest_px = 0;
+  for (double across = kStepPx; across <= kWidestPx; across += kStepPx) {
+    if (light_at(-across) < light_at(-darkest_px)) darkest_px = across;
+  }
+  const double dark = light_at(-darkest_px), ground = light_at(kGroundPx);
+  const double plate = light_at(-darkest_px - kFlankPx);
+  const double further_in = light_at(-darkest_px - 2 * kFlankPx);
+  const double rise = plate - dark;
+  if (rise < kDeep * (ground - dark) || rise < kSteep * std::abs(further_in - plate))
+    return std::nullopt;
+  Margin line{darkest_px, dark, ground};
+  while (light_at(-line.width_px) < dark + 0.5 * rise && line.width_px < kWidestPx + kFlankPx)
+    line.width_px += kStepPx;
+  const double widest_px = std::min(kWidestPx, kOfBlade * blade_px);
+  if (line.width_px < kNarrowestPx || line.width_px > widest_px) return std::nullopt;
+  return line;
+}
+
 std::optional<Band> BandBeside(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const LocatedEdge& edge) {

@@ -24,6 +24,13 @@ struct Margin {
                                                const LocatedEdge& edge,
                                                double blade_px);
 
+// A dark line along the inner side of an edge, narrower than what FindMargin tells from blur.
+// std::nullopt where there is none.
+[[nodiscard]] std::optional<Margin> FindDarkLine(const cv::Mat& grey,
+                                                 const ToneCurve& tone,
+                                                 const LocatedEdge& edge,
+                                                 double blade_px);
+
 // What lies between an edge and its rival.
 struct Band {
   double width_px = 0;

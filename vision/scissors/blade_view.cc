@@ -98,6 +98,10 @@ std::optional<Margin> BladeView::MarginOf(const LocatedEdge& edge, bool left) co
   return FindMargin(grey(), tone(), edge, BladeOf(scene_, left).width_px);
 }
 
+std::optional<Margin> BladeView::DarkLineOf(const LocatedEdge& edge, bool left) const {
+  return FindDarkLine(grey(), tone(), edge, BladeOf(scene_, left).width_px);
+}
+
 const cv::Mat& BladeView::Colours() const {
   std::call_once(decoded_, [this] { colours_ = photo_.DecodeColour(LongSide()); });
   return colours_;

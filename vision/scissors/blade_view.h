@@ -64,6 +64,7 @@ class BladeView {
 
   // Along an edge or outer side of a blade; std::nullopt where there is none.
   [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const;
+  [[nodiscard]] std::optional<Margin> DarkLineOf(const LocatedEdge& edge, bool left) const;
 
   // BGR, the whole photograph; and at half the resolution, at which colours are stored anyway. Of a
   // photograph that would not be reduced, the whole, decoded but once.

@@ -94,4 +94,10 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
     edges->lower = WhereShadowBegins(view, std::move(edges->lower), *of_lower, false);
 }
 
+void DoubtDarkLine(const BladeView& view, bool left, LocatedEdge* edge) {
+  constexpr double kDoubt = 0.5;  // of the width
+  const auto line = view.DarkLineOf(*edge, left);
+  if (line) DoubtForRival(edge, -line->width_px, kDoubt * line->width_px);
+}
+
 }  // namespace bladecurve

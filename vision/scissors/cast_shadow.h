@@ -15,4 +15,8 @@ namespace bladecurve {
 // own shank, or the other blade's outer side, which face the same way, cast the same one.
 void LeaveCastShadow(const BladeView& view, BladeEdges* edges);
 
+// A dark line along an edge, so narrow that nothing tells whether it is a bevel or the shadow where
+// the blade all but touches what it lies on: the edge may lie on its other side.
+void DoubtDarkLine(const BladeView& view, bool left, LocatedEdge* edge);
+
 }  // namespace bladecurve

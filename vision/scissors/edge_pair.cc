@@ -160,6 +160,8 @@ BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   edges.lower = WithBlurOf(view, edges.upper, std::move(edges.lower), false);
   SettleByColour(view, plan, &edges);
   LeaveCastShadow(view, &edges);
+  DoubtDarkLine(view, true, &edges.upper);
+  DoubtDarkLine(view, false, &edges.lower);
   return edges;
 }
 

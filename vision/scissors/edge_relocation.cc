@@ -25,7 +25,8 @@ struct SeenAlone {
 
 // Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
 // other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
-// however clear. Not where the pivot may account for the difference, unless it is as sure there.
+// however clear. Not where the pivot may account for the difference, unless it is as sure there; a
+// clear edge is then not left for a higher step either.
 bool IsBetter(const std::optional<RelocatedBlade>& found,
               const LocatedBlade& blade,
               const SeenAlone& alone) {
@@ -34,7 +35,7 @@ bool IsBetter(const std::optional<RelocatedBlade>& found,
   const LocatedEdge& edge = found->blade.edge;
   const bool sure = alone.beyond_pivot || TotalSigma(edge) <= TotalSigma(blade.edge);
   if (alone.outside && sure && edge.ambiguity <= kAlone) return true;
-  return edge.ambiguity <= kClearer &&
+  return (alone.beyond_pivot || !IsClear(blade.edge)) && edge.ambiguity <= kClearer &&
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
