@@ -89,6 +89,25 @@ TEST(PartedByPivotPx, IsTwiceWhatThePivotMayLieAsideOfTheLineBetweenTheBlades) {
   EXPECT_NEAR(PartedByPivotPx(pivot, blades), 2 * kSigmaPx, 1e-9);
 }
 
+TEST(RefuseClosed, SpeaksUpWhereTheEndsLieOnEachOtherOrTheWrongWayRound) {
+  const auto is_closed = [](double upper_y, double lower_y) {
+    Blades blades = BladesWithRivals(0, 0);
+    blades.upper.end.point_px.y() = upper_y;
+    blades.lower.end.point_px.y() = lower_y;
+    try {
+      RefuseClosed(PivotSeen(0), blades);
+    } catch (const Refused& refused) {
+      return refused.reason() == Reason::kClosed;
+    }
+    return false;
+  };
+  constexpr double kHalf5DegreesPx = 0.0436 * kLength;
+  EXPECT_FALSE(is_closed(-kHalf5DegreesPx, kHalf5DegreesPx));
+  EXPECT_FALSE(is_closed(-kLength, kLength));
+  EXPECT_TRUE(is_closed(0, 2));
+  EXPECT_TRUE(is_closed(kHalf5DegreesPx, -kHalf5DegreesPx));
+}
+
 TEST(RefuseContestedHead, SpeaksUpWhereAFaintHeadLiesFarFromWhereTheBladesPutThePivot) {
   const ScaleResult tilt_unknown;
   Pivot pivot = PivotSeen(0);

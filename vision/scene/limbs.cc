@@ -109,19 +109,23 @@ std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
 
 int LimbEnd(const Outline& outline, int from, int to, Way way, const Vector2d& direction) {
   constexpr double kLimb = 0.5;  // of the furthest; ragged outlines go to and fro by less
-  const Vector2d crotch = outline.At(from);
+  const Vector2d crotch = outline.At(from), other_crotch = outline.At(to);
   const int sign = way == Way::kOn ? 1 : -1, steps = outline.Wrap(sign * (to - from));
-  std::vector<double> reach;  // 0: beside the crotch, or behind it
+  double furthest = 0;
   for (int k = 0; k <= steps; ++k) {
     const Vector2d offset = outline.At(from + sign * k) - crotch;
-    reach.push_back(offset.dot(direction) > 0 ? offset.norm() : 0);
+    if (offset.dot(direction) > 0) furthest = std::max(furthest, offset.norm());
   }
-  const auto furthest = std::max_element(reach.begin(), reach.end());
-  if (*furthest == 0) return -1;
-  const auto on_limb =
-      std::find_if(reach.begin(), furthest, [&](double r) { return r >= kLimb * *furthest; });
-  const auto limb_end = std::max_element(reach.begin(), std::find(on_limb, furthest, 0.0) + 1);
-  return outline.Wrap(from + sign * static_cast<int>(limb_end - reach.begin()));
+  int best = -1;
+  double reach = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const Vector2d at = outline.At(from + sign * k), offset = at - crotch;
+    if (reach >= kLimb * furthest && (at - other_crotch).dot(direction) <= 0) break;
+    if (offset.dot(direction) <= 0 || offset.norm() <= reach) continue;
+    reach = offset.norm();
+    best = outline.Wrap(from + sign * k);
+  }
+  return best;
 }
 
 std::vector<Run> RunsAcross(const cv::Mat& filled,

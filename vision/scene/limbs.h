@@ -66,10 +66,10 @@ class Outline {
 // Which way along an outline.
 enum class Way { kOn, kBack };
 
-// The end of the limb whose outline leaves a crotch, the point `from`, that way towards `to`: index
-// of the point furthest from there, among those that lie ahead of it in `direction`, before the
-// outline comes back to beside the crotch; -1 if none does. What touches another limb is no part of
-// it, however far ahead that reaches.
+// The end of the limb whose outline leaves a crotch, the point `from`, that way towards the other
+// one, `to`: index of the point furthest from there, among those that lie ahead of it in
+// `direction`, before the outline comes back to beside the other crotch; -1 if none does. What
+// touches another limb is no part of it, however far ahead that reaches.
 [[nodiscard]] int LimbEnd(
     const Outline& outline, int from, int to, Way way, const Eigen::Vector2d& direction);
 

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "vision/edge/edge_curve.h"
+#include "vision/image/cross.h"
 #include "vision/parallel.h"
 #include "vision/refused.h"
 
@@ -103,6 +105,16 @@ void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseOutOfPlane(pivot, blades);
   RefuseJaws(pivot, blades);
   RefuseUnknownPivot(pivot, blades);
+}
+
+void RefuseClosed(const Pivot& pivot, const Blades& blades) {
+  constexpr double kLeastRad = 3 * std::numbers::pi / 180;
+  const Eigen::Vector2d upper = blades.upper.end.point_px - pivot.point_px;
+  const Eigen::Vector2d lower = blades.lower.end.point_px - pivot.point_px;
+  if (std::atan2(Cross(upper, lower), upper.dot(lower)) >= kLeastRad) return;  // y points down
+  throw Refused(Reason::kClosed,
+                "edges: the distal ends lie on each other, or the wrong way round; open the "
+                "scissors by 5 degrees at least, and avoid hard shadows beside them");
 }
 
 bool PassByPivot(const Pivot& pivot) { return pivot.overlap >= kUsualOverlap; }

@@ -21,6 +21,10 @@ namespace bladecurve {
 // screw nor the blades tell where they turn.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
+// Throws Refused{kClosed} where the distal ends lie on each other, or have passed each other: the
+// blades are closed, or both edges are of one blade and its shadow.
+void RefuseClosed(const Pivot& pivot, const Blades& blades);
+
 // Whether the edges pass by it as far as those of usual scissors do; jaws' meet there.
 [[nodiscard]] bool PassByPivot(const Pivot& pivot);
 

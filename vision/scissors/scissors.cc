@@ -106,6 +106,7 @@ void SettleEnds(const BladeView& view, const Pivot& pivot, Blades* blades) {
     KeepFree(view.scene(), blade);
     PlaceEndOnCourse(blade);
   }
+  RefuseClosed(pivot, *blades);
   KeepBeyondCrossing(blades);
   DoubtUnlikeEnds(pivot, blades);
 }
