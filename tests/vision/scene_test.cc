@@ -288,22 +288,6 @@ TEST(SeenIn, TakesTheGapsBetweenMarkersForNoScissors) {
     EXPECT_LT(c.pair.quality, kAcceptedQuality);
 }
 
-// In the sun each blade lies beside its shadow: four limbs.
-TEST(FindBladePairs, TakesNoShadowOfABladeForTheOtherBlade) {
-  cv::Mat mask = cv::Mat::zeros(460, 600, CV_8UC1);
-  const cv::Point joint(300, 200);
-  for (const int tip_y : {130, 170, 240, 280}) {
-    const std::vector<cv::Point> blade{
-        {500, tip_y}, joint + cv::Point(-4, -18), joint + cv::Point(4, 18)};
-    cv::fillConvexPoly(mask, blade, 255);
-  }
-  for (const int sign : {-1, 1}) cv::line(mask, joint, {-10, 200 + 130 * sign}, 255, 16);
-  for (const BladePair& pair : FindBladePairs(FindSilhouettes(mask, 1).front(), {})) {
-    const double apart_px = std::abs(pair.first.tip.y() - pair.second.tip.y());
-    EXPECT_TRUE(apart_px > 60 || pair.quality < kAcceptedQuality) << apart_px;
-  }
-}
-
 // Blades that the frame cuts on the left, two short limbs on the right.
 TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   cv::Mat mask = cv::Mat::zeros(400, 600, CV_8UC1);
@@ -405,6 +389,19 @@ TEST(SceneFinder, RefusesTwoPairsOfScissors) {
   cv::Mat two;
   cv::vconcat(one, one, two);
   EXPECT_EQ(ReasonFor(two), "several_scissors");
+}
+
+// In the sun each blade lies beside its shadow: four limbs.
+TEST(SceneFinder, TakesNoShadowOfABladeForTheOtherBlade) {
+  constexpr std::uint64_t kSeed = 12000194;  // gold blades 20 degrees open on wood
+  const SceneSpec spec = RandomScene(kSeed, Difficulty::kSun);
+  const RenderedPhoto rendered = RenderScene(spec);
+  const Photo photo = testing::Measured::PhotoOf(rendered.bgr);
+  StageLog log;
+  const Scene scene =
+      SceneFinder(photo, FindMarkers(photo.grey(), SrgbToneCurve()), {}, &log).Likeliest();
+  const double apart_px = (rendered.truth.upper.end_px - rendered.truth.lower.end_px).norm();
+  EXPECT_NEAR((scene.left.tip_px - scene.right.tip_px).norm(), apart_px, 0.3 * apart_px);
 }
 
 // As a ground as bright as itself swallows part of a blade.
