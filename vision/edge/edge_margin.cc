@@ -124,11 +124,12 @@ std::optional<Margin> FindDarkLine(const cv::Mat& grey,
   const Across light_at = [&](double across) {
     return TypicalLight(grey, tone, edge, across).value_or(0);
   };
-  double darkest_px = 0;
+  double darkest_px = 0, dark = light_at(0);
   for (double across = kStepPx; across <= kWidestPx; across += kStepPx) {
-    if (light_at(-across) < light_at(-darkest_px)) darkest_px = across;
+    const double light = light_at(-across);
+    if (light < dark) dark = light, darkest_px = across;
   }
-  const double dark = light_at(-darkest_px), ground = light_at(kGroundPx);
+  const double ground = light_at(kGroundPx);
   const double plate = light_at(-darkest_px - kFlankPx);
   const double further_in = light_at(-darkest_px - 2 * kFlankPx);
   const double rise = plate - dark;

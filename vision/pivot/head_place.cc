@@ -29,14 +29,14 @@ double HeightPx(const ScaleResult& scale, const Scene& scene, const Vector2d& he
 PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene& scene) {
   if (scale.sheet)
     return FootOf(*scale.sheet, {head_px, scale.plane_height_mm, kHeadMm, kHeadSigmaMm});
-  constexpr double kAsideRad = 3 * std::numbers::pi / 180, kKnown = 0.15;
+  constexpr double kAsideRad = 3 * std::numbers::pi / 180;
   const double height_px = HeightPx(scale, scene, head_px);
   PlacePx foot{head_px, std::pow(height_px * kAsideRad, 2) * Eigen::Matrix2d::Identity()};
   if (!scale.camera) return foot;
   const Camera& camera = scale.camera->camera;
   const Vector2d leaning =
       height_px / camera.focal_length_px() * (head_px - camera.k.topRightCorner<2, 1>());
-  const bool known = scale.camera->log_focal_sigma < kKnown;
+  const bool known = scale.camera->log_focal_sigma < kFocalKnown;
   if (known) foot.point_px -= leaning;
   foot.covariance_px2 +=
       std::pow(known ? kHeadSigmaMm / kHeadMm : 1, 2) * leaning * leaning.transpose();

@@ -14,6 +14,9 @@ namespace bladecurve {
 inline constexpr double kCalibratedFocalSigma = 0.002;  // relative
 inline constexpr double kCalibratedK1Sigma = 0.002;
 
+// Standard uncertainty of its logarithm below which a focal length counts as known.
+inline constexpr double kFocalKnown = 0.15;
+
 // What is known of the camera beforehand. A sigma of zero: exactly.
 struct CameraKnowledge {
   Camera camera;

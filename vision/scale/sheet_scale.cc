@@ -41,7 +41,6 @@ std::vector<std::string> Warnings(const SheetSolution& solution,
   // A sheet bowed by 1 mm moves corners by some pixels; tone and paper stay below a third of a
   // pixel.
   constexpr double kBentPx = 0.5, kBentChi2 = 4;
-  constexpr double kFocalKnown = 0.15;
   std::vector<std::string> warnings;
   const bool focal_known = solution.log_focal_sigma < kFocalKnown;
   if (solution.surplus <= 0) warnings.emplace_back("scale_four_corners");

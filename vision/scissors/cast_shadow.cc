@@ -41,7 +41,8 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
       view.InShadow(Within(edge, shadow.width_px - reach_px, shadow.width_px + reach_px, left),
                     shadow.than_blade);
   if (!begins || begins->ambiguity > kUnclear) return edge;
-  DoubtForRival(&*begins, shadow.width_px, kDoubt * shadow.width_px);
+  SetRival(&*begins, shadow.width_px);
+  DoubtForRival(&*begins, kDoubt * shadow.width_px);
   return *std::move(begins);
 }
 
@@ -97,7 +98,9 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
 void DoubtDarkLine(const BladeView& view, bool left, LocatedEdge* edge) {
   constexpr double kDoubt = 0.5;  // of the width
   const auto line = view.DarkLineOf(*edge, left);
-  if (line) DoubtForRival(edge, -line->width_px, kDoubt * line->width_px);
+  if (!line) return;
+  SetRival(edge, -line->width_px);
+  DoubtForRival(edge, kDoubt * line->width_px);
 }
 
 }  // namespace bladecurve

@@ -18,12 +18,6 @@ double SigmaWithoutRival(const LocatedEdge& edge) {
       std::max(0.0, std::pow(edge.common_sigma_px, 2) - std::pow(edge.rival_sigma_px, 2)));
 }
 
-// By how much the edges would pass the pivot more unequally, signed as their asymmetry, px, if the
-// transition beside this one were its border.
-double ByRivalPx(const LocatedBlade& blade) {
-  return (blade.on_left ? 1 : -1) * blade.edge.rival_px;
-}
-
 // The ways in which the other edge may pass.
 std::vector<double> WaysOf(const LocatedBlade& blade) {
   if (blade.edge.rival_sigma_px > 0) return {0, ByRivalPx(blade)};

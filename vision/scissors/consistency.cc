@@ -191,10 +191,20 @@ void Doubt(LocatedEdge* edge, double off_px) {
   AddSigma(edge, off_px);
 }
 
-void DoubtForRival(LocatedEdge* edge, double rival_px, double off_px) {
+void DoubtForRival(LocatedEdge* edge, double off_px) {
   Doubt(edge, off_px);
-  edge->rival_px = rival_px;
   edge->rival_sigma_px = std::hypot(edge->rival_sigma_px, off_px);
+}
+
+void SetRival(LocatedEdge* edge, double rival_px) {
+  edge->rival_px = rival_px;
+  edge->rival_path_px.clear();
+  for (const LocatedEdgePoint& p : edge->points)
+    edge->rival_path_px.push_back(p.trend_px + rival_px * p.normal);
+}
+
+double ByRivalPx(const LocatedBlade& blade) {
+  return (blade.on_left ? 1 : -1) * blade.edge.rival_px;
 }
 
 void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
@@ -205,8 +215,7 @@ void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     AddSigma(&edge, kOff * pivot.asymmetry * length_px);
-    const double moved = (blade->on_left ? 1 : -1) * edge.rival_px / length_px;
-    if (!AreAlike(pivot.asymmetry + moved)) continue;
+    if (!AreAlike(pivot.asymmetry + ByRivalPx(*blade) / length_px)) continue;
     Doubt(&edge, kShare * edge.rival_px);
   }
 }

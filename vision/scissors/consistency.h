@@ -36,8 +36,15 @@ void RefuseClosed(const Pivot& pivot, const Blades& blades);
 // Makes an edge ambiguous, and less certain by so much: it may lie that far off.
 void Doubt(LocatedEdge* edge, double off_px);
 
-// The same for the sake of another line beside it, so far out of the blade, that may be its border.
-void DoubtForRival(LocatedEdge* edge, double rival_px, double off_px);
+// The same for the sake of its rival, which may be its border.
+void DoubtForRival(LocatedEdge* edge, double off_px);
+
+// Makes a line so far out of the blade the edge's rival.
+void SetRival(LocatedEdge* edge, double rival_px);
+
+// By how much the edges would pass the pivot more unequally, signed as their asymmetry, px, if this
+// one's rival were its border.
+[[nodiscard]] double ByRivalPx(const LocatedBlade& blade);
 
 // Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
 // and seen from a known side, are no mirror images about it by far.

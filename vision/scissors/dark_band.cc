@@ -91,8 +91,7 @@ LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
   const bool is_inner = edge.rival_px > 0;
   const DarkBand band = Judge(view, edge, left);
   if (band == DarkBand::kUnknown) {
-    if (HasDarkBand(edge) && is_inner)
-      DoubtForRival(&edge, edge.rival_px, kDoubt * edge.rival_px);
+    if (HasDarkBand(edge) && is_inner) DoubtForRival(&edge, kDoubt * edge.rival_px);
     return edge;
   }
   const bool want_inner = band == DarkBand::kShadow;

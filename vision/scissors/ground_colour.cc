@@ -34,7 +34,8 @@ void LeaveLightAlone(const BladeView& view,
     *edge = *std::move(again);
     return;
   }
-  DoubtForRival(edge, border->offset_px, std::abs(border->offset_px));
+  SetRival(edge, border->offset_px);
+  DoubtForRival(edge, std::abs(border->offset_px));
 }
 
 bool LeavesDoubt(const LocatedEdge& edge) {
