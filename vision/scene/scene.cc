@@ -9,6 +9,7 @@
 
 #include "vision/image/cross.h"
 #include "vision/refused.h"
+#include "vision/scene/beyond_tips.h"
 #include "vision/scene/blades.h"
 #include "vision/scene/catches.h"
 #include "vision/scene/limb_count.h"
@@ -196,6 +197,13 @@ void RefuseOtherInstruments(const LadderResult& ladder, const StoredHints& hints
                   "scene: more than two blades cross at one place, or hard shadows that look like "
                   "more; part the instruments, use softer light, or say where the screw is: "
                   "--pivot X,Y");
+  }
+  if (own != nullptr && BothGoOnBeyondTips(found.mask, *own, found.pair)) {
+    throw Refused(Reason::kBladesNotVisible,
+                  "scene: what was taken for two blades goes on beyond both tips, as shanks do to "
+                  "their rings; both blades must be inside " +
+                      std::string(WhereLooked(hints)) +
+                      "; if these are the blades, say where the screw is: --pivot X,Y");
   }
   if (TurnAtJoint(ladder) > kAngled) {
     throw Refused(Reason::kOutOfPlane,

@@ -11,6 +11,7 @@
 
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/scene/beyond_tips.h"
 #include "vision/scene/closed_shape.h"
 #include "vision/scene/silhouette.h"
 
@@ -100,52 +101,9 @@ void DoubtEdgesOfHidden(const cv::Mat& hidden, Candidate* candidate) {
   }
 }
 
-// What a mask shows besides `one` thing, without specks.
-cv::Mat OtherThings(const cv::Mat& mask, const Silhouette& one, double least_area) {
-  cv::Mat rest = mask.clone();
-  rest.setTo(0, one.filled);
-  cv::Mat labels, statistics, centers;
-  const int count = cv::connectedComponentsWithStats(rest, labels, statistics, centers);
-  std::vector<uchar> kept(static_cast<std::size_t>(count), 0);
-  for (int label = 1; label < count; ++label) {
-    if (statistics.at<int>(label, cv::CC_STAT_AREA) > least_area)
-      kept[static_cast<std::size_t>(label)] = 255;
-  }
-  for (int row = 0; row < rest.rows; ++row) {
-    for (int col = 0; col < rest.cols; ++col)
-      rest.at<uchar>(row, col) = kept[static_cast<std::size_t>(labels.at<int>(row, col))];
-  }
-  return rest;
-}
-
-// Whether something lies where a blade points, or a little beside, soon beyond its tip.
-bool GoesOn(const cv::Mat& mask, const BladePair& pair, const BladeContour& blade) {
-  constexpr double kFrom = 0.05, kSoon = 0.5, kBeside = 0.25, kLong = 0.35;  // of the length
-  constexpr double kSoonWidths = 3;                                          // of the shanks
-  const Vector2d along = (blade.tip - pair.pivot).normalized(), across(-along.y(), along.x());
-  const auto is_set = [&](double way, double beside) {
-    return IsSetAt(mask, blade.tip + way * along + beside * across);
-  };
-  const double beside = kBeside * blade.length;
-  const double soon = std::max(kSoon * blade.length, kSoonWidths * pair.shank_width);
-  double first = -1, length = 0;
-  for (double way = kFrom * blade.length; way < soon + blade.length; ++way) {
-    bool any = false;
-    for (double aside = -beside; aside <= beside && !any; ++aside) any = is_set(way, aside);
-    if (!any) continue;
-    if (first < 0) first = way;
-    if (first > soon) return false;
-    ++length;
-  }
-  return length > kLong * blade.length;
-}
-
 // Blades beyond whose tips other things go on are stubs of shanks, of whose outline some was lost.
 void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pair) {
-  constexpr double kLeastArea = 0.5;  // of a square as wide as the shanks
-  const cv::Mat others =
-      OtherThings(mask, silhouette, kLeastArea * pair->shank_width * pair->shank_width);
-  if (!GoesOn(others, *pair, pair->first) || !GoesOn(others, *pair, pair->second)) return;
+  if (!BothGoOnBeyondTips(mask, silhouette, *pair)) return;
   pair->quality = pair->worst_grade = 0;
   pair->doubt = "both blades go on beyond their tips";
 }
