@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -20,6 +21,7 @@
 #include "vision/photo/png_writer.h"
 #include "vision/refused.h"
 #include "vision/render/render.h"
+#include "vision/scene/beyond_tips.h"
 #include "vision/scene/blades.h"
 #include "vision/scene/catches.h"
 #include "vision/scene/closed_shape.h"
@@ -314,6 +316,42 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   EXPECT_TRUE(sees_stubs()) << "look like blades";
   for (const int sign : {-1, 1}) cv::line(mask, along(sign, 180), along(sign, 320), 255, 8);
   EXPECT_FALSE(sees_stubs()) << "the limbs go on";
+}
+
+// Four limbs that cross, and what lies beyond those on the right.
+bool GoOnBeyond(const std::function<void(cv::Mat*, const cv::Point&)>& draw_at_tip) {
+  cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
+  const cv::Point joint(250, 200);
+  const auto along = [&](int sign, int way) { return joint + cv::Point(way, sign * way * 4 / 10); };
+  for (const int sign : {-1, 1}) {
+    cv::line(mask, joint, along(sign, -240), 255, 14);
+    cv::line(mask, joint, along(sign, 180), 255, 14);
+    draw_at_tip(&mask, along(sign, 230));
+  }
+  const std::vector<Silhouette> things = FindSilhouettes(mask, 3);
+  const Silhouette& limbs = *ThingAt(things, {joint.x, joint.y});
+  const std::vector<BladePair> pairs = FindBladePairs(limbs, {});
+  const auto on_right = std::find_if(pairs.begin(), pairs.end(), [&](const BladePair& pair) {
+    return std::min(pair.first.tip.x(), pair.second.tip.x()) > joint.x;
+  });
+  EXPECT_NE(on_right, pairs.end());
+  return on_right != pairs.end() && BothGoOnBeyondTips(mask, limbs, *on_right);
+}
+
+TEST(BothGoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
+  constexpr int kRadius = 38;
+  const cv::Size axes(kRadius, kRadius);
+  EXPECT_FALSE(GoOnBeyond([](cv::Mat*, const cv::Point&) {}));
+  EXPECT_TRUE(GoOnBeyond([&](cv::Mat* mask, const cv::Point& at) {
+    cv::ellipse(*mask, at, axes, 0, 100, 260, 255, 6);
+    cv::ellipse(*mask, at, axes, 0, -80, 80, 255, 6);
+  }));
+  EXPECT_FALSE(GoOnBeyond([&](cv::Mat* mask, const cv::Point& at) {
+    if (at.y > 200) cv::ellipse(*mask, at, axes, 0, 0, 300, 255, 6);
+  })) << "beyond one of them";
+  EXPECT_FALSE(GoOnBeyond([](cv::Mat* mask, const cv::Point& at) {
+    cv::rectangle(*mask, {at.x - 20, 20}, {at.x + 60, 380}, 255, cv::FILLED);
+  })) << "a ruler";
 }
 
 // On texture, or beside a soft shadow, a threshold's contour may run beside a sharp edge; a soft
@@ -705,6 +743,30 @@ TEST(SceneFinder, ShowsTheSameScissorsAtEveryLook) {
     EXPECT_LT((again.left.tip_px - likeliest.left.tip_px).norm(), near_px);
     EXPECT_LT((again.right.tip_px - likeliest.right.tip_px).norm(), near_px);
   }
+}
+
+// One mask shows the joint elsewhere, but the same blades.
+TEST(LadderResult, TakesPairsThatEndInTheSameBladesForOne) {
+  const auto seen = [](double joint_x, double tips_x) {
+    Candidate c = MaskWithTurn(0);
+    c.method = "grey";
+    c.strength = 1;
+    c.agreeing = 5;
+    c.mask = cv::Mat(1, 1, CV_8UC1);
+    c.pair.quality = 0.85;
+    c.pair.pivot = {joint_x, 100};
+    c.pair.first.tip = {tips_x, 80};
+    c.pair.second.tip = {tips_x, 120};
+    c.pair.first.length = c.pair.second.length = 60;
+    return c;
+  };
+  const auto several = [](const Candidate& a, const Candidate& b) {
+    LadderResult all;
+    all.seen = {a, b};
+    return ByOtherMethods(all, "flood").several;
+  };
+  EXPECT_FALSE(several(seen(100, 160), seen(20, 160)));
+  EXPECT_TRUE(several(seen(100, 160), seen(300, 360)));
 }
 
 // The second look is by all other methods, the third by the other masks of the likeliest one.

@@ -66,6 +66,16 @@ bool StandsApart(const Candidate& c, const Candidate& best) {
   return shown;
 }
 
+// Whether two pairs end in the same blade, as those of the same scissors do whose joint one mask
+// shows elsewhere.
+bool ShareTip(const Candidate& a, const Candidate& b) {
+  constexpr double kNear = 0.25;  // of the size
+  const auto near = [&](const Eigen::Vector2d& tip, const Eigen::Vector2d& other) {
+    return (a.at->FullFromSmall(tip) - b.at->FullFromSmall(other)).norm() < kNear * FullSize(b);
+  };
+  return near(a.pair.first.tip, b.pair.first.tip) || near(a.pair.second.tip, b.pair.second.tip);
+}
+
 // Whether `c` shows a second pair of scissors beside the best: as good a one elsewhere, or a
 // poorer one that is a thing of its own, and no texture.
 bool IsSecondPair(const Candidate& c, const Candidate& best) {
@@ -73,7 +83,7 @@ bool IsSecondPair(const Candidate& c, const Candidate& best) {
   constexpr double kSmallest = 0.4, kFaintest = 0.2;    // of the best
   const double apart_px =
       (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
-  if (apart_px <= FullSize(best)) return false;
+  if (apart_px <= FullSize(best) || ShareTip(c, best)) return false;
   const bool seen_alike =
       c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best.method;
   if (best.pair.quality > kSurelyScissors && (seen_alike || IsOftenSeen(c))) return true;
