@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot/head_search.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -176,6 +176,13 @@ bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
   return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
 }
 
+// Whether it lies where the blades alone put the pivot.
+bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
+  const PlacePx& place = known.by_geometry;
+  const Vector2d off = screw.center_px - place.point_px;
+  return off.dot(place.covariance_px2.ldlt().solve(off)) < 1;
+}
+
 // What is seen in seven discs that cover the search: in each, a head is judged by its own
 // surroundings, and by as many candidates as in all of it.
 std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
@@ -217,7 +224,10 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
        {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
     const auto other = FindHere(known, search);
     if (!other || !is_clearer(*other)) continue;
-    if (other->evidence > kUnmistakable || MirrorNear(*other, known)) clearest = other;
+    const bool at_place = other->evidence > kFaint && LiesWhereBladesTurn(*other, known);
+    if (other->evidence > kUnmistakable || MirrorNear(*other, known) ||
+        (at_place && MayMirrorAbout(*other, known)))
+      clearest = other;
   }
   if (clearest) return clearest;
   const auto half = FindHere(known, SearchHalfLit(known));
