@@ -171,6 +171,8 @@ DarkBand JudgeByPattern(const cv::Mat& picture,
   // Of the slope of ground on farther ground. Stray light lowers it in shadows, to 0.23 in the sun;
   // mirrors reach 0.7.
   constexpr double kAsMuch = 0.8, kHardly = 0.12;
+  // Light that falls off towards a blade changes more the nearer it is, a pattern does not.
+  constexpr double kMostSlope = 1.5;
   const Strips strips(edge.rival_px);
   const std::size_t first = FirstClearOf(other_px, edge, strips.FartherGround().to + kBlur);
   const auto band = PatternAlong(picture, tone, edge, first, strips.Band());
@@ -186,6 +188,7 @@ DarkBand JudgeByPattern(const cv::Mat& picture,
   const Likeness follows = Compare(*ground, *band, most_moved);
   const double contrast = ground->norm() / std::sqrt(static_cast<double>(ground->size()));
   if (contrast < kLeastContrast || goes_on.correlation < kGoesOn) return DarkBand::kUnknown;
+  if (std::max(goes_on.slope, follows.slope) > kMostSlope) return DarkBand::kUnknown;
   if (follows.correlation > kFollows && follows.slope > kAsMuch * goes_on.slope)
     return DarkBand::kShadow;
   return follows.slope < kHardly * goes_on.slope ? DarkBand::kMetal : DarkBand::kUnknown;
