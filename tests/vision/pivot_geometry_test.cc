@@ -123,6 +123,20 @@ TEST(AreBentToOneSide, SeesParabolasFromTheHeels) {
   }
 }
 
+// However roughly they were located, if they are bent by far more.
+TEST(AreBentToOneSide, SeesLargeBowsOfRoughEdges) {
+  constexpr double kRough = 0.004, kWaves = 9;  // of the length
+  const auto roughened = [&](EdgePair edges) {
+    for (Vector2d& p : edges.left_px)
+      p.y() += kRough * kLength * std::sin(kWaves * (p - kPivot).norm() / kLength);
+    return edges;
+  };
+  const EdgePair edges = Edges(30 * kDegree, 0.08);
+  EXPECT_FALSE(AreBentToOneSide(roughened(edges), kPivot));
+  EXPECT_FALSE(AreBentToOneSide(roughened(Bent(edges, 0.01, 0.12)), kPivot));
+  EXPECT_TRUE(AreBentToOneSide(roughened(Bent(edges, 0.06, 0.12)), kPivot));
+}
+
 // As lines of shadows and bevels are: aside by as much everywhere, or the more the further from the
 // tip, or only on a part.
 TEST(AreBentToOneSide, SeesNoneWhereOneEdgeIsAnotherLine) {

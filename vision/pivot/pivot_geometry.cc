@@ -175,15 +175,17 @@ bool AreAlike(double asymmetry) { return std::abs(asymmetry) <= 0.014; }
 bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   constexpr double kLeast = 0.006;                // of the length; less is how blades are made
   constexpr double kCloser = 1.0 / 3;             // of the scatter about a straight line
-  constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola
+  constexpr double kSmooth = 0.0013;              // of the length, scatter about the parabola,
+  constexpr double kSmoothOfBend = 1.0 / 7;       // or of the scatter about a straight line
   constexpr double kBehind = -0.05, kHeel = 0.3;  // of the length, from the pivot
   constexpr std::size_t kFewestAbreast = 60;      // points; fewer show no bend
   const EdgeGap gap = GapAbout(edges, pivot_px);
   if (gap.along.size() < kFewestAbreast) return false;
   const FittedGap straight = FitAllOf(gap, 2), bent = FitAllOf(gap, 3);
   const double square = bent.course.powers[2];
-  if (std::abs(square) < kLeast || bent.scatter > std::min(kCloser * straight.scatter, kSmooth))
-    return false;
+  const double most_scatter =
+      std::min(kCloser * straight.scatter, std::max(kSmooth, kSmoothOfBend * straight.scatter));
+  if (std::abs(square) < kLeast || bent.scatter > most_scatter) return false;
   // By the line's choice the edges are alike at the ends, the other root is where the bend begins.
   const double begins = bent.course.powers[0] / square;
   return begins > kBehind && begins < kHeel;
