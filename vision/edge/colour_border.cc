@@ -251,7 +251,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
   const EdgeInColours seen{colours, tone, edge, blade_px};
   std::vector<StretchOffset> offsets;
-  std::vector<double> certain;
+  std::vector<double> certain;  // from the crotch on
   std::vector<Vector2d> border;
   for (int k = 0; k < kStretches; ++k) {
     const Stretch stretch = StretchOf(edge, k);
@@ -263,7 +263,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
     certain.push_back(colours.px * transition->Certain());
   }
   if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px) return std::nullopt;
-  return ColourBorder{Moved(edge, offsets), Median(std::move(certain))};
+  return ColourBorder{Moved(edge, offsets), MedianOfFarthestThird(certain)};
 }
 
 }  // namespace bladecurve

@@ -28,8 +28,8 @@ struct ReducedColours {
 // at a bevel's, which has the blade's.
 struct ColourBorder {
   std::vector<Eigen::Vector2d> path_px;  // in the photograph; to a pixel or two of the reduced one
-  // How far off the edge it lies for certain, median along it; positive out of the blade. 0 where
-  // it may lie at the edge.
+  // How far off the edge it lies for certain, along the third of it where that is most, medians;
+  // positive out of the blade. 0 where it may lie at the edge.
   double offset_px = 0;
 };
 

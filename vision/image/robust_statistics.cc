@@ -67,6 +67,20 @@ double MedianAbsolute(std::vector<double> values) {
   return Median(std::move(values));
 }
 
+double MedianOfFarthestThird(const std::vector<double>& values) {
+  constexpr std::size_t kFewest = 6;  // values; fewer are one third
+  if (values.size() < kFewest) return Median(values);
+  double farthest = 0;
+  for (std::size_t third = 0; third < 3; ++third) {
+    const auto at = [&](std::size_t k) {
+      return values.begin() + static_cast<std::ptrdiff_t>(values.size() * k / 3);
+    };
+    const double median = Median({at(third), at(third + 1)});
+    if (std::abs(median) > std::abs(farthest)) farthest = median;
+  }
+  return farthest;
+}
+
 double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight) {
   std::sort(value_and_weight.begin(), value_and_weight.end());
   double total = 0, passed = 0;

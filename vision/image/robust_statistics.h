@@ -16,6 +16,9 @@ inline constexpr double kSigmaPerMedian = 1.4826;
 [[nodiscard]] double SampleQuantile(std::vector<double> values, double share);
 [[nodiscard]] double Median(std::vector<double> values);
 [[nodiscard]] double MedianAbsolute(std::vector<double> values);
+// Of the medians of the first, the middle and the last third of the values the one farthest from 0;
+// of fewer than six values, their median.
+[[nodiscard]] double MedianOfFarthestThird(const std::vector<double>& values);
 [[nodiscard]] double WeightedMedian(std::vector<std::pair<double, double>> value_and_weight);
 
 // Standard deviation about zero without the outliers. Not from a median: in a smooth picture most

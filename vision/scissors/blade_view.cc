@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "vision/edge/edge_colour.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
 #include "vision/scissors/scene_guess.h"
@@ -19,6 +18,12 @@ using Eigen::Vector2d;
 LocatedEdge InViewOrHalved(const ColourView& view, const EdgeGuess& guess) {
   const auto edge = UnlessRefused([&] { return LocateEdgeInView(view, guess); });
   return edge ? *edge : LocateEdgeInHalvedView(view, guess);
+}
+
+std::vector<double> Distances(const LocatedEdge& edge, const LocatedEdge& other) {
+  std::vector<double> distances;
+  for (const LocatedEdgePoint& p : edge.points) distances.push_back(DistanceTo(other, p.trend_px));
+  return distances;
 }
 
 }  // namespace
@@ -48,15 +53,19 @@ LocatedEdge BladeView::InGreyOr(const Look& look, const EdgeGuess& guess) const 
   }
 }
 
-// look(view, guess) in colours that part blade and background much better than grey does;
-// std::nullopt if they hardly do. Throws Refused as `look`.
+// look(view, guess) in better colours. Throws Refused as `look`.
 template <typename Look>
 std::optional<LocatedEdge> BladeView::InColours(const Look& look, const EdgeGuess& guess) const {
+  const std::optional<ColourView> view = InBetterColours(guess);
+  return view ? std::optional(look(*view, guess)) : std::nullopt;
+}
+
+std::optional<ColourView> BladeView::InBetterColours(const EdgeGuess& guess) const {
   constexpr double kGain = 1.5;  // times better separated; less is no other picture
-  const ColourView view = ViewWhereSidesDiffer(Colours(), tone(), guess);
+  ColourView view = ViewWhereSidesDiffer(Colours(), tone(), guess);
   const double in_grey = GreySeparation(grey(), tone(), guess);
-  if (!(view.separation > 0) || view.separation < kGain * in_grey) return std::nullopt;
-  return look(view, guess);
+  const bool better = view.separation > 0 && view.separation >= kGain * in_grey;
+  return better ? std::optional(std::move(view)) : std::nullopt;
 }
 
 LocatedEdge BladeView::InGreyOrColours(const EdgeGuess& guess) const {
@@ -67,11 +76,15 @@ LocatedEdge BladeView::InGreyOrAnyColours(const EdgeGuess& guess) const {
   return InGreyOr(InViewOrHalved, guess);
 }
 
+std::optional<LocatedEdge> BladeView::InColoursAlone(const EdgeGuess& guess, double shade) const {
+  return UnlessRefused(
+      [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone(), guess, shade), guess); });
+}
+
 std::optional<LocatedEdge> BladeView::InColoursThenGrey(const EdgeGuess& guess,
                                                         double shade) const {
   constexpr double kColoursOffPx = 2;
-  auto coloured = UnlessRefused(
-      [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone(), guess, shade), guess); });
+  auto coloured = InColoursAlone(guess, shade);
   if (!coloured) return std::nullopt;
   auto in_grey = InGrey({TrendOf(*coloured), guess.blade_on_left, kColoursOffPx});
   const bool clearer =
@@ -140,9 +153,11 @@ std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {
 }
 
 double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other) {
-  std::vector<double> distances;
-  for (const LocatedEdgePoint& p : edge.points) distances.push_back(DistanceTo(other, p.trend_px));
-  return Median(std::move(distances));
+  return Median(Distances(edge, other));
+}
+
+double DistanceOfFarthestThird(const LocatedEdge& edge, const LocatedEdge& other) {
+  return MedianOfFarthestThird(Distances(edge, other));
 }
 
 }  // namespace bladecurve

@@ -9,6 +9,7 @@
 
 #include "vision/edge/colour_border.h"
 #include "vision/edge/edge.h"
+#include "vision/edge/edge_colour.h"
 #include "vision/edge/edge_margin.h"
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
@@ -49,10 +50,17 @@ class BladeView {
   // The same, colours also at half the resolution.
   [[nodiscard]] LocatedEdge InGreyOrAnyColours(const EdgeGuess& guess) const;
 
-  // In colours, and in grey, which is sharper, where that shows an edge at the same place. shade:
-  // as for ViewWhereSidesDiffer.
+  // In colours, at half the resolution if need be. shade: as for ViewWhereSidesDiffer.
+  [[nodiscard]] std::optional<LocatedEdge> InColoursAlone(const EdgeGuess& guess,
+                                                          double shade) const;
+
+  // The same, and in grey, which is sharper, where that shows an edge at the same place.
   [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess,
                                                              double shade) const;
+
+  // The mixture of the colours in which the sides of an edge differ most, if it parts them much
+  // better than grey does.
+  [[nodiscard]] std::optional<ColourView> InBetterColours(const EdgeGuess& guess) const;
 
   // As the place where a shadow begins.
   [[nodiscard]] std::optional<LocatedEdge> InShadow(const EdgeGuess& guess,
@@ -97,8 +105,10 @@ class BladeView {
 
 [[nodiscard]] std::vector<Eigen::Vector2d> TrendOf(const LocatedEdge& edge);
 
-// Between one edge and another along it, px.
+// Between one edge and another along it, px: the median; and that over the third of the edge where
+// they are farthest apart.
 [[nodiscard]] double MedianDistance(const LocatedEdge& edge, const LocatedEdge& other);
+[[nodiscard]] double DistanceOfFarthestThird(const LocatedEdge& edge, const LocatedEdge& other);
 
 // Ambiguity below which no other transition matches an edge's.
 inline constexpr double kAsGood = 0.45;

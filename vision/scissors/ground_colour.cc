@@ -25,14 +25,27 @@ void LeaveLightAlone(const BladeView& view,
   constexpr double kWay = 0.5;    // of the way there, at least
   constexpr double kShade = 0.5;  // of the light
   const double width_px = BladeOf(view.scene(), left).width_px;
-  const auto border = FindColourBorder(colours, view.tone(), *edge, other, width_px);
-  if (!border || std::abs(border->offset_px) < kFarPx) return;
+  const auto border_along = [&](const LocatedEdge& line) {
+    return FindColourBorder(colours, view.tone(), line, other, width_px);
+  };
+  const auto is_far = [](const auto& border) {
+    return border && std::abs(border->offset_px) >= kFarPx;
+  };
+  const auto border = border_along(*edge);
+  if (!is_far(border)) return;
   const EdgeGuess guess{border->path_px, left, kSearchPx};
+  const auto is_border = [&](const std::optional<LocatedEdge>& again) {
+    return again && DistanceOfFarthestThird(*again, *edge) >= kWay * std::abs(border->offset_px) &&
+           !is_far(border_along(*again));
+  };
   for (const double shade : {0.0, kShade}) {
-    std::optional<LocatedEdge> again = view.InColoursThenGrey(guess, shade);
-    if (!again || MedianDistance(*again, *edge) < kWay * std::abs(border->offset_px)) continue;
-    *edge = *std::move(again);
-    return;
+    for (const bool then_grey : {true, false}) {
+      std::optional<LocatedEdge> again =
+          then_grey ? view.InColoursThenGrey(guess, shade) : view.InColoursAlone(guess, shade);
+      if (!is_border(again)) continue;
+      *edge = *std::move(again);
+      return;
+    }
   }
   SetRival(edge, border->offset_px);
   DoubtForRival(edge, std::abs(border->offset_px));
