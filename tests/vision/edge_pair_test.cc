@@ -96,6 +96,27 @@ TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
   }
 }
 
+// A drape about as bright as the blades, whose tips the mask has cut short.
+TEST(TrimToFree, FindsInColoursTheTipsThatGreyDoesNotShow) {
+  constexpr double kClosePx = 1, kShortPx = 14;
+  for (const double green : {0.5, 0.55, 0.6, 0.65}) {
+    SceneSpec spec = SceneWithShadowsInTheGap(60 * kDegree);
+    spec.light.shadow = spec.light.contact_shadow = 0;
+    spec.theta_rad = 30 * kDegree;
+    spec.scissors.tip_radius_mm = 0.4;
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = {0.1, green, 0.15};
+    Seen seen(spec);
+    seen.scene.left.tip_px -=
+        kShortPx * (seen.scene.left.tip_px - seen.scene.crotch_px).normalized();
+    const BladeView view(seen.photo, seen.scale, seen.scene);
+    LocatedBlade upper{true, LocateBlades(view).upper, {}, {}, {}};
+    TrimToFree(view, &upper);
+    EXPECT_TRUE(upper.end.arc_seen) << green;
+    EXPECT_LT((upper.end.point_px - TruthOf(spec).upper.end_px).norm(), kClosePx) << green;
+  }
+}
+
 // There grey leaves no doubt: the shadow's border is as clear as an edge. Lower sun throws shadows
 // more than half as wide as the blades.
 TEST(LocateBlades, TakesTheColoursOfLargePhotographsToo) {

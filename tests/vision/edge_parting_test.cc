@@ -43,7 +43,7 @@ void LeadAstray(Measured* measured,
     points[i].point_px += shift;
     points[i].trend_px += shift;
   }
-  TrimToFree(measured->photo, measured->scene, blade);
+  TrimToFree(measured->View(), blade);
 }
 
 // Furthest that a point used lies from the true edge, px.

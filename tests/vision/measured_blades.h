@@ -117,7 +117,7 @@ struct Measured {
     for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();
     BladeEdges edges = LocateBlades(View());
     blades = {{true, edges.upper, {}, {}, {}}, {false, edges.lower, {}, {}, {}}, false};
-    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(photo, scene, blade);
+    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) TrimToFree(View(), blade);
     pivot.point_px = truth.pivot_px;
     pivot.covariance_px2.setIdentity();
     pivot.source = "screw";

@@ -160,6 +160,12 @@ bool IsCertain(const TipCap& cap) {
   return cap.seen >= kMany || (cap.seen >= kSome && cap.scatter_px < kRound);
 }
 
+// Whether light changes so much less across an arc than across the edge that it is texture's.
+bool IsFaint(const TipCap& cap, double edge_step) {
+  constexpr double kFaint = 0.15;  // slender tips reach 0.2
+  return std::abs(cap.step) < kFaint * std::abs(edge_step);
+}
+
 // The arc at another place than the presumed tip, if it is clear.
 std::optional<TipCap> ClearCapAt(const Vector2d& place_px,
                                  const cv::Mat& grey,
@@ -220,8 +226,8 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
     return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
-  const bool clear = cap && cap->scatter_px < kClearArc;
   const FollowedStep followed = FollowStep(grey, edge, search.tip);
+  const bool clear = cap && cap->scatter_px < kClearArc && !IsFaint(*cap, followed.step);
   const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
   const auto and_rival = [&](std::vector<DistalEnd> ends) {
     if (rival) ends.push_back(EndAtSeenCap(edge, *rival, followed.step));

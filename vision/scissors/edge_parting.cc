@@ -271,10 +271,8 @@ void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades
   Comparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();
   try {
-    if (was_cut.upper)
-      TrimToFree(view.photo(), view.scene(), &blades->upper, comparison.BeyondUpper());
-    if (was_cut.lower)
-      TrimToFree(view.photo(), view.scene(), &blades->lower, comparison.BeyondLower());
+    if (was_cut.upper) TrimToFree(view, &blades->upper, comparison.BeyondUpper());
+    if (was_cut.lower) TrimToFree(view, &blades->lower, comparison.BeyondLower());
   } catch (const Refused&) {
     const bool edges_part = blades->edges_part;
     *blades = before;  // too little would be left

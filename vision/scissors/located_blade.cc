@@ -15,6 +15,7 @@
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
 #include "vision/scissors/scene_guess.h"
+#include "vision/scissors/tip_arc.h"
 
 namespace bladecurve {
 namespace {
@@ -84,22 +85,42 @@ std::vector<LocatedEdgePoint> Beyond(const Vector2d& from_px, const LocatedBlade
   return kept;
 }
 
+// Where the tip's arc leaves the edge in colours that part blade and ground much better than grey
+// does, if it is seen there.
+std::optional<DistalEnds> EndsInColours(const BladeView& view,
+                                        std::vector<Vector2d> points,
+                                        EndSearch search) {
+  if (points.size() < kFewestEdgePoints) return std::nullopt;
+  EdgeGuess guess{points, search.tip.blade_on_left, 0.5 * search.tip.reach_px};
+  guess.path_px.push_back(points.back() + search.tip.blade_width_px * AlongChord(points));
+  const std::optional<ColourView> colours = view.InBetterColours(guess);
+  if (!colours) return std::nullopt;
+  for (Vector2d& p : points) p -= colours->corner_px;
+  search.tip.tip_px -= colours->corner_px;
+  DistalEnds ends = FindDistalEnds(colours->grey, points, search);
+  if (!ends.likely.arc_seen) return std::nullopt;
+  ends.likely.point_px += colours->corner_px;
+  for (DistalEnd& rival : ends.rivals) rival.point_px += colours->corner_px;
+  return ends;
+}
+
 }  // namespace
 
-void TrimToFree(const Photo& photo,
-                const Scene& scene,
-                LocatedBlade* blade,
-                const std::vector<Vector2d>& beyond) {
+void TrimToFree(const BladeView& view, LocatedBlade* blade, const std::vector<Vector2d>& beyond) {
   std::vector<Vector2d> points = InlierPoints(blade->edge);
   points.insert(points.end(), beyond.begin(), beyond.end());
-  const SceneBlade& seen = BladeOf(scene, blade->on_left);
-  const double reach_px = std::max(8.0, 4 * scene.path_sigma_px);
+  const SceneBlade& seen = BladeOf(view.scene(), blade->on_left);
+  const double reach_px = std::max(8.0, 4 * view.scene().path_sigma_px);
   TipSearch tip{seen.tip_px, reach_px, seen.width_px, blade->on_left};
   tip.blur_px = BlurOr(blade->edge, tip.blur_px);
-  DistalEnds ends = FindDistalEnds(photo.grey(), points, {tip, MedianSigma(blade->edge.points)});
+  const EndSearch search{tip, MedianSigma(blade->edge.points)};
+  DistalEnds ends = FindDistalEnds(view.grey(), points, search);
+  if (!ends.likely.arc_seen) {
+    if (auto coloured = EndsInColours(view, points, search)) ends = *std::move(coloured);
+  }
   blade->end = ends.likely;
   blade->rival_ends = std::move(ends.rivals);
-  KeepFree(scene, blade);
+  KeepFree(view.scene(), blade);
 }
 
 void KeepFree(const Scene& scene, LocatedBlade* blade) {

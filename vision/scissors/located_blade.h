@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "vision/edge/edge.h"
-#include "vision/photo/photo.h"
 #include "vision/scene/scene.h"
+#include "vision/scissors/blade_view.h"
 #include "vision/scissors/distal_end.h"
 
 namespace bladecurve {
@@ -33,8 +33,7 @@ struct Blades {
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
 // near, and that end. Throws Refused{kEdgeTooShort}.
 // `beyond`: where the edge is known to go on towards the tip although it is not seen.
-void TrimToFree(const Photo& photo,
-                const Scene& scene,
+void TrimToFree(const BladeView& view,
                 LocatedBlade* blade,
                 const std::vector<Eigen::Vector2d>& beyond = {});
 

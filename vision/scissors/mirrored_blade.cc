@@ -75,7 +75,7 @@ RelocatedBlade BladeWithEdge(const MirroredBladeSearch& search, LocatedEdge edge
   RelocatedBlade found;
   found.blade.on_left = !search.other.on_left;
   found.blade.edge = std::move(edge);
-  TrimToFree(search.view.photo(), search.view.scene(), &found.blade);
+  TrimToFree(search.view, &found.blade);
   found.asymmetry = AsymmetryOf(search.view, search.pivot, found.blade, search.other);
   return found;
 }

@@ -31,8 +31,8 @@ Blades LocateAndTrim(const BladeView& view, StageLog* log) {
   Blades blades{{true, std::move(edges.upper), {}, {}, {}},
                 {false, std::move(edges.lower), {}, {}, {}},
                 false};
-  TrimToFree(view.photo(), view.scene(), &blades.upper);
-  TrimToFree(view.photo(), view.scene(), &blades.lower);
+  TrimToFree(view, &blades.upper);
+  TrimToFree(view, &blades.lower);
   log->Ran("edges", "full resolution along the blades only");
   return blades;
 }

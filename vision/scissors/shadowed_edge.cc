@@ -24,7 +24,7 @@ std::optional<LocatedBlade> BladeWithinBand(const BladeView& view, const Located
   return UnlessRefused([&] {
     LocatedBlade within = blade;
     within.edge = *std::move(edge);
-    TrimToFree(view.photo(), view.scene(), &within);
+    TrimToFree(view, &within);
     return within;
   });
 }
