@@ -11,6 +11,7 @@
 #include "vision/parallel.h"
 #include "vision/pivot/head_place.h"
 #include "vision/pivot/pivot_geometry.h"
+#include "vision/pivot/slot_search.h"
 
 namespace bladecurve {
 namespace {
@@ -183,6 +184,21 @@ bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
   return off.dot(place.covariance_px2.ldlt().solve(off)) < 1;
 }
 
+// A head by its slot alone, where the blades put the pivot and about which the edges mirror each
+// other; the nearest to there.
+std::optional<Screw> LookForSlot(const HeadSearch& known) {
+  const auto off = [&](const Screw& screw) {
+    return (screw.center_px - known.by_geometry.point_px).norm();
+  };
+  std::optional<Screw> nearest;
+  for (const Screw& head : FindSlottedHeads(
+           known.grey, known.scale.tone, SearchAllAbout(known.scale, known.scene, 0))) {
+    if (!LiesWhereBladesTurn(head, known) || !MirrorNear(head, known)) continue;
+    if (!nearest || off(head) < off(*nearest)) nearest = head;
+  }
+  return nearest;
+}
+
 // What is seen in seven discs that cover the search: in each, a head is judged by its own
 // surroundings, and by as many candidates as in all of it.
 std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
@@ -230,6 +246,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
       clearest = other;
   }
   if (clearest) return clearest;
+  if (auto slotted = LookForSlot(known)) return slotted;
   const auto half = FindHere(known, SearchHalfLit(known));
   return half && MirrorNear(*half, known) ? half : std::nullopt;
 }

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot/slot_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "vision/pivot/screw_slot.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// The part of a picture in which slots may lie, reduced to where the smallest head is this large.
+constexpr double kReducedRadiusPx = 8;
+
+struct ReducedPart {
+  cv::Mat grey;
+  Vector2d corner_px;  // of the part in the picture
+  double px = 1;       // of the picture, to one of its own
+
+  [[nodiscard]] Vector2d InPicture(const cv::Point2f& at) const {
+    const auto half = Vector2d::Constant(0.5);
+    return corner_px + px * (Vector2d(at.x, at.y) + half) - half;
+  }
+};
+
+ReducedPart PartOf(const cv::Mat& grey, const ScrewSearch& search) {
+  const double reach = search.radius_px + search.max_semi_axis_px;
+  const cv::Point low(static_cast<int>(search.guess_px.x() - reach),
+                      static_cast<int>(search.guess_px.y() - reach));
+  const int side = static_cast<int>(2 * reach) + 1;
+  const cv::Rect around = cv::Rect(low, cv::Size(side, side)) & cv::Rect({0, 0}, grey.size());
+  ReducedPart part;
+  part.corner_px = {around.x, around.y};
+  part.px = std::max(1.0, search.min_semi_axis_px / kReducedRadiusPx);
+  if (around.empty()) return part;
+  const auto reduced = [&](int length) {
+    return std::max(1, static_cast<int>(std::lround(length / part.px)));
+  };
+  cv::resize(grey(around),
+             part.grey,
+             {reduced(around.width), reduced(around.height)},
+             0,
+             0,
+             cv::INTER_AREA);
+  return part;
+}
+
+// What is narrow and darker than its surroundings by that share of their grey value. CV_8UC1, 0 or
+// 255.
+cv::Mat DarkLines(const cv::Mat& grey, double widest_px, double darker) {
+  constexpr int kLeastGrey = 8;
+  const int width = 2 * static_cast<int>(std::ceil(0.5 * widest_px)) + 1;
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_ELLIPSE, {width, width});
+  cv::Mat closed, dark;
+  cv::morphologyEx(grey, closed, cv::MORPH_CLOSE, kernel);
+  cv::subtract(closed, grey, dark);
+  const cv::Mat least = cv::max(darker * closed, kLeastGrey);
+  return dark >= least;
+}
+
+// A straight bar: its middle, and half its length.
+struct Bar {
+  cv::Point2f middle;
+  double half_length = 0;
+};
+
+std::optional<Bar> BarOf(const std::vector<cv::Point>& outline) {
+  constexpr double kSlender = 2.5, kFilled = 0.6;
+  const cv::RotatedRect box = cv::minAreaRect(outline);
+  const double length = std::max(box.size.width, box.size.height) + 1;
+  const double width = std::min(box.size.width, box.size.height) + 1;
+  if (length < kSlender * width) return std::nullopt;
+  // An outline runs through the pixels' centres.
+  const double area = cv::contourArea(outline) + 0.5 * cv::arcLength(outline, true) + 1;
+  if (area < kFilled * length * width) return std::nullopt;
+  return Bar{box.center, 0.5 * length};
+}
+
+std::vector<Bar> BarsIn(const cv::Mat& mask) {
+  std::vector<std::vector<cv::Point>> outlines;
+  cv::findContours(mask, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<Bar> bars;
+  for (const std::vector<cv::Point>& outline : outlines) {
+    if (const auto bar = BarOf(outline)) bars.push_back(*bar);
+  }
+  return bars;
+}
+
+// As a head about whose rim nothing is known.
+Screw HeadOf(const ScrewSlot& slot, double radius_px) {
+  constexpr double kUnknown = 10;  // of the radius
+  Screw screw;
+  screw.center_px = slot.center_px;
+  screw.covariance_px2 = std::pow(kUnknown * radius_px, 2) * Eigen::Matrix2d::Identity();
+  screw.semi_major_px = screw.semi_minor_px = radius_px;
+  screw.slot = slot;
+  return screw;
+}
+
+}  // namespace
+
+std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
+                                    const ToneCurve& tone,
+                                    const ScrewSearch& search) {
+  constexpr double kFaint = 0.12, kDeep = 0.35;    // darker; deep slots may touch faint lines
+  constexpr double kWidest = 0.35;                 // of the largest head's radius
+  constexpr double kShorter = 0.8, kLonger = 1.1;  // than heads are wide
+  const ReducedPart part = PartOf(grey, search);
+  std::vector<Screw> heads;
+  if (part.grey.empty()) return heads;
+  for (const double darker : {kFaint, kDeep}) {
+    for (const Bar& bar :
+         BarsIn(DarkLines(part.grey, kWidest * search.max_semi_axis_px / part.px, darker))) {
+      const double radius_px = part.px * bar.half_length;
+      const Vector2d middle_px = part.InPicture(bar.middle);
+      if (radius_px < kShorter * search.min_semi_axis_px ||
+          radius_px > kLonger * search.max_semi_axis_px ||
+          (middle_px - search.guess_px).norm() > search.radius_px)
+        continue;
+      const std::optional<ScrewSlot> slot = FindSlot(grey, tone, middle_px, radius_px);
+      if (slot && slot->ends_seen) heads.push_back(HeadOf(*slot, radius_px));
+    }
+  }
+  return heads;
+}
+
+}  // namespace bladecurve
