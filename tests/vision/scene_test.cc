@@ -706,6 +706,39 @@ TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   }
 }
 
+// The scissors on a mat with a printed grid of lines as bright as the blades.
+cv::Mat OnCuttingMat(SceneSpec spec) {
+  constexpr int kCellPx = 28, kLinePx = 3, kScissors = 12;
+  spec.backdrop = Backdrop::kDrape;
+  spec.drape_rgb = {0.01, 0.05, 0.03};
+  spec.texture = spec.light.shadow = spec.light.contact_shadow = 0;
+  const cv::Mat picture = RenderScene(spec).bgr;
+  spec.with_scissors = false;
+  const cv::Mat mat = RenderScene(spec).bgr;
+  cv::Mat differs, printed = mat.clone();
+  cv::absdiff(picture, mat, differs);
+  cv::cvtColor(differs, differs, cv::COLOR_BGR2GRAY);
+  const cv::Scalar light(156, 195, 130);
+  for (int at = -picture.cols; at < 2 * picture.cols; at += kCellPx) {
+    cv::line(printed, {at, 0}, {at + picture.rows / 2, picture.rows}, light, kLinePx);
+    cv::line(printed, {0, at}, {picture.cols, at - picture.cols / 2}, light, kLinePx);
+  }
+  cv::GaussianBlur(printed, printed, {}, 0.8);
+  picture.copyTo(printed, differs > kScissors);
+  return printed;
+}
+
+TEST(SceneFinder, SeesScissorsOnACuttingMat) {
+  const SceneSpec spec = SmallScene();
+  const SceneTruth truth = TruthOf(spec);
+  const Photo photo = testing::Measured::PhotoOf(OnCuttingMat(spec));
+  StageLog log;
+  const Scene scene = SceneFinder(photo, {}, {}, &log).Likeliest();
+  const double near_px = 0.1 * (truth.upper.end_px - truth.pivot_px).norm();
+  EXPECT_LT((scene.left.tip_px - truth.upper.end_px).norm(), near_px);
+  EXPECT_LT((scene.right.tip_px - truth.lower.end_px).norm(), near_px);
+}
+
 // Members cross: a blade's own shank lies behind the joint, on the other side of the axis, and its
 // side that faces as the cutting edge does is the far one.
 TEST(SceneFinder, ShowsTheSideOfEachShankThatFacesAsTheCuttingEdgeDoes) {

@@ -188,7 +188,17 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
   log->Ran("scene-regions", WhyRun(full, "the flood ran into the blades"));
   result.climbed = true;
-  return result;
+  if (ShowsWholeBlades(result) && !full) {
+    log->Skipped("scene-broad", "the regions show blades");
+    return result;
+  }
+  Rung broad;  // by itself: what lines make look like blades is none
+  LadderResult in_broad = Consider(BroadRung(view, colour), "rung-broad", &broad, log);
+  log->Ran("scene-broad", WhyRun(full, "lines may cross the ground"));
+  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad)) return result;
+  *all = std::move(broad);
+  in_broad.climbed = true;
+  return in_broad;
 }
 
 // What the candidates that are kept show best.

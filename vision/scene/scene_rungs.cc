@@ -83,6 +83,30 @@ cv::Mat LabDistance(const ColourPictures& colour) {
   return distance;
 }
 
+cv::Mat ShadowBlindDistance(const ColourPictures& colour) {
+  cv::Mat light;
+  colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
+  const BackgroundModel background = FitBackground(light, colour.ignore);
+  cv::Mat distance = DistanceFromShadedBackground(light, background);
+  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
+  return distance;
+}
+
+// What is broader than printed lines, and the slender ends of that.
+cv::Mat WithoutLines(const cv::Mat& distance) {
+  constexpr int kLinePx = 7, kEndsPx = 4;
+  cv::Mat broad;
+  cv::morphologyEx(distance,
+                   broad,
+                   cv::MORPH_OPEN,
+                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {kLinePx, kLinePx}));
+  for (int grown = 0; grown < kEndsPx; ++grown) {
+    cv::dilate(broad, broad, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+    cv::min(broad, distance, broad);
+  }
+  return broad;
+}
+
 // What lies above a level, without the specks of grain that cling to it, and without its outermost
 // pixel, which is outline.
 cv::Mat MaskAboveLevel(const cv::Mat& levels, double level, int speck_px) {
@@ -131,13 +155,13 @@ Rung ColourRung(const SceneView& view, const ColourPictures& colour) {
 }
 
 Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
-  cv::Mat light;
-  colour.bgr.convertTo(light, CV_32FC3, 100.0 / 255);
-  const BackgroundModel background = FitBackground(light, colour.ignore);
-  cv::Mat distance = DistanceFromShadedBackground(light, background);
-  if (!colour.ignore.empty()) distance.setTo(0, colour.ignore);
   const Candidate like{{}, colour.lab, {}, "shadow-blind"};
-  return ThresholdAll(distance, colour.ignore, like, view.hints);
+  return ThresholdAll(ShadowBlindDistance(colour), colour.ignore, like, view.hints);
+}
+
+Rung BroadRung(const SceneView& view, const ColourPictures& colour) {
+  const Candidate like{{}, colour.lab, {}, "broad"};
+  return ThresholdAll(WithoutLines(ShadowBlindDistance(colour)), colour.ignore, like, view.hints);
 }
 
 Outlines OutlinesIn(const SceneView& view) {

@@ -22,6 +22,9 @@ inline constexpr int kOutlineSide = 960;
 // By what a shadow does not do to the background.
 [[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
 
+// The same without lines, as of a cutting mat's grid.
+[[nodiscard]] Rung BroadRung(const SceneView& view, const ColourPictures& colour);
+
 // The sharp outlines of a picture, which two rungs go by.
 struct Outlines {
   ColourPictures colour;
