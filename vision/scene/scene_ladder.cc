@@ -195,7 +195,9 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   Rung broad;  // by itself: what lines make look like blades is none
   LadderResult in_broad = Consider(BroadRung(view, colour), "rung-broad", &broad, log);
   log->Ran("scene-broad", WhyRun(full, "lines may cross the ground"));
-  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad)) return result;
+  // Without the slender parts, shanks are left that look like blades, but not like whole scissors.
+  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad) || !Consistent(in_broad))
+    return result;
   *all = std::move(broad);
   in_broad.climbed = true;
   return in_broad;
