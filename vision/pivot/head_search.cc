@@ -215,8 +215,9 @@ std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
 }
 
 // Where no head was seen that can be trusted: one further forward; one all about the overlap; a
-// wider or a smaller one; a half-lit one. Necks of members and engraved marks are round, too, but
-// less so than heads; about few of them the edges mirror each other.
+// wider or a smaller one, which may be faint where the blades alone put the pivot; one of which
+// nothing but the slot shows; a half-lit one. Necks of members and engraved marks are round, too,
+// but less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   // Where the view is known, edges mirror each other about few false heads.
   constexpr double kUnmistakable = 25, kFaint = 5, kFaintInKnownView = 3.5;

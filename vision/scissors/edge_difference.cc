@@ -27,7 +27,8 @@ double ShareInPx(double share, const Pivot& pivot, const Blades& blades) {
 
 bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
   constexpr double kSigmas = 3;
-  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) > kSigmas * PartedByPivotPx(pivot, blades);
+  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) >
+         kSigmas * PartedByPivotPx(pivot, blades);
 }
 
 bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {
