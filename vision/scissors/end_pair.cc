@@ -72,6 +72,8 @@ struct Comparison {
   double unlike = 0;    // by how much equal blades may differ as seen, standard
   double variance = 0;  // of the gap
 
+  // Relative likelihood of the gap.
+  [[nodiscard]] double Likeness() const { return std::exp(-0.5 * gap * gap / variance); }
   [[nodiscard]] bool Contradicts() const {
     constexpr double kContradict = 3;  // standard uncertainties
     return std::abs(gap) > kContradict * std::sqrt(variance);
@@ -141,7 +143,8 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
   constexpr double kMoreClearly = 1.5;  // times the evidence of the likely ends
   const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
     const Comparison both = Compare(scale, pivot, *blades, upper, lower);
-    return both.Outwards() && !both.Contradicts() ? upper.evidence + lower.evidence : 0;
+    const bool alike = both.Outwards() && !both.Contradicts();
+    return alike ? both.Likeness() * (upper.evidence + lower.evidence) : 0;
   };
   const DistalEnd upper = blades->upper.end, lower = blades->lower.end;
   const auto candidates = [](const LocatedBlade& blade) {
