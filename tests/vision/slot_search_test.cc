@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/image/along_across.h"
+#include "vision/image/covariance.h"
 
 namespace bladecurve {
 namespace {
@@ -78,7 +78,7 @@ PlacePx Combined(const PlacePx& a, const PlacePx& b) {
   constexpr double kByChance = 6;  // chi-square of two coordinates, 95 %
   const Vector2d apart = b.point_px - a.point_px;
   const Eigen::Matrix2d share = a.covariance_px2 * (a.covariance_px2 + b.covariance_px2).inverse();
-  const double chi_square = apart.dot((a.covariance_px2 + b.covariance_px2).ldlt().solve(apart));
+  const double chi_square = ChiSquare(apart, a.covariance_px2 + b.covariance_px2);
   const Eigen::Matrix2d covariance = a.covariance_px2 - share * a.covariance_px2;
   return {a.point_px + share * apart,
           std::max(1.0, chi_square / kByChance) * 0.5 * (covariance + covariance.transpose())};

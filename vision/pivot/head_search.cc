@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot/head_search.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "vision/image/covariance.h"
 #include "vision/parallel.h"
 #include "vision/pivot/head_place.h"
 #include "vision/pivot/pivot_geometry.h"
@@ -92,8 +93,7 @@ ScrewSearch SearchSmallHead(const ScaleResult& scale, const Scene& scene) {
 ScrewSearch SearchHalfLit(const HeadSearch& known) {
   constexpr double kSigmas = 2;
   constexpr double kClear = 10;  // elsewhere about the joint one of 700 scenes reaches it
-  const Eigen::Matrix2d& covariance = known.by_geometry.covariance_px2;
-  const double sigma_px = std::sqrt(covariance.eigenvalues().real().maxCoeff());
+  const double sigma_px = LargestSigma(known.by_geometry.covariance_px2);
   ScrewSearch search =
       SearchForHead(known.scale,
                     known.scene,
@@ -180,8 +180,7 @@ bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
 // Whether it lies where the blades alone put the pivot.
 bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
   const PlacePx& place = known.by_geometry;
-  const Vector2d off = screw.center_px - place.point_px;
-  return off.dot(place.covariance_px2.ldlt().solve(off)) < 1;
+  return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < 1;
 }
 
 // A head by its slot alone, where the blades put the pivot and about which the edges mirror each

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/image/along_across.h"
+#include "vision/image/covariance.h"
 #include "vision/pivot/head_place.h"
 #include "vision/pivot/head_search.h"
 
@@ -48,9 +48,7 @@ Estimate OverlapSeen(const ScaleResult& scale,
 
 // How far apart two places are, in standard uncertainties of their distance.
 double SigmasApart(const Pivot& a, const Pivot& b) {
-  const Vector2d apart = a.point_px - b.point_px;
-  const Eigen::Matrix2d covariance = a.covariance_px2 + b.covariance_px2;
-  return std::sqrt(apart.dot(covariance.ldlt().solve(apart)));
+  return std::sqrt(ChiSquare(a.point_px - b.point_px, a.covariance_px2 + b.covariance_px2));
 }
 
 // The edges about the pivot. Those of bent blades are no mirror images, and nothing is said of

@@ -10,8 +10,8 @@
 #include <numbers>
 #include <vector>
 
-#include "vision/image/along_across.h"
 #include "vision/image/bilinear.h"
+#include "vision/image/covariance.h"
 #include "vision/image/robust_statistics.h"
 
 namespace bladecurve {

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "vision/pivot/screw_field.h"
 #include "vision/pivot/screw_slot.h"
 
 namespace bladecurve {
@@ -15,38 +16,12 @@ namespace {
 using Eigen::Vector2d;
 
 // The part of a picture in which slots may lie, reduced to where the smallest head is this large.
-constexpr double kReducedRadiusPx = 8;
-
-struct ReducedPart {
-  cv::Mat grey;
-  Vector2d corner_px;  // of the part in the picture
-  double px = 1;       // of the picture, to one of its own
-
-  [[nodiscard]] Vector2d InPicture(const cv::Point2f& at) const {
-    const auto half = Vector2d::Constant(0.5);
-    return corner_px + px * (Vector2d(at.x, at.y) + half) - half;
-  }
-};
-
-ReducedPart PartOf(const cv::Mat& grey, const ScrewSearch& search) {
-  const double reach = search.radius_px + search.max_semi_axis_px;
-  const cv::Point low(static_cast<int>(search.guess_px.x() - reach),
-                      static_cast<int>(search.guess_px.y() - reach));
-  const int side = static_cast<int>(2 * reach) + 1;
-  const cv::Rect around = cv::Rect(low, cv::Size(side, side)) & cv::Rect({0, 0}, grey.size());
-  ReducedPart part;
-  part.corner_px = {around.x, around.y};
-  part.px = std::max(1.0, search.min_semi_axis_px / kReducedRadiusPx);
-  if (around.empty()) return part;
-  const auto reduced = [&](int length) {
-    return std::max(1, static_cast<int>(std::lround(length / part.px)));
-  };
-  cv::resize(grey(around),
-             part.grey,
-             {reduced(around.width), reduced(around.height)},
-             0,
-             0,
-             cv::INTER_AREA);
+ScaledWindow PartOf(const cv::Mat& grey, const ScrewSearch& search) {
+  constexpr double kReducedRadiusPx = 8;
+  const double scale = std::max(1.0, search.min_semi_axis_px / kReducedRadiusPx);
+  ScaledWindow part =
+      CutWindow(grey, search.guess_px, search.radius_px + search.max_semi_axis_px, scale);
+  part.grey.convertTo(part.grey, CV_8U);
   return part;
 }
 
@@ -110,14 +85,14 @@ std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
   constexpr double kFaint = 0.12, kDeep = 0.35;    // darker; deep slots may touch faint lines
   constexpr double kWidest = 0.35;                 // of the largest head's radius
   constexpr double kShorter = 0.8, kLonger = 1.1;  // than heads are wide
-  const ReducedPart part = PartOf(grey, search);
+  const ScaledWindow part = PartOf(grey, search);
   std::vector<Screw> heads;
   if (part.grey.empty()) return heads;
   for (const double darker : {kFaint, kDeep}) {
     for (const Bar& bar :
-         BarsIn(DarkLines(part.grey, kWidest * search.max_semi_axis_px / part.px, darker))) {
-      const double radius_px = part.px * bar.half_length;
-      const Vector2d middle_px = part.InPicture(bar.middle);
+         BarsIn(DarkLines(part.grey, kWidest * search.max_semi_axis_px / part.scale, darker))) {
+      const double radius_px = part.scale * bar.half_length;
+      const Vector2d middle_px = part.origin + part.scale * Vector2d(bar.middle.x, bar.middle.y);
       if (radius_px < kShorter * search.min_semi_axis_px ||
           radius_px > kLonger * search.max_semi_axis_px ||
           (middle_px - search.guess_px).norm() > search.radius_px)

@@ -9,6 +9,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/image/cross.h"
+
 namespace bladecurve {
 namespace {
 
@@ -27,55 +29,46 @@ struct FromTip {
   }
 };
 
-// What a mask shows besides one thing: a label for each pixel, 0 for none, and every thing's area.
-struct OtherThings {
-  cv::Mat labels;  // CV_32SC1
-  std::vector<int> area_px;
+using OuterContour = std::vector<cv::Point>;
 
-  OtherThings(const cv::Mat& mask, const Silhouette& one) {
-    cv::Mat rest = mask.clone();
-    rest.setTo(0, one.filled);
-    cv::Mat statistics, centers;
-    const int count = cv::connectedComponentsWithStats(rest, labels, statistics, centers);
-    for (int label = 0; label < count; ++label)
-      area_px.push_back(statistics.at<int>(label, cv::CC_STAT_AREA));
+// The outer outlines of what a mask shows besides one thing, without specks.
+std::vector<OuterContour> OtherThings(const cv::Mat& mask, const Silhouette& one, double least_px) {
+  cv::Mat rest = mask.clone();
+  rest.setTo(0, one.filled);
+  std::vector<OuterContour> outlines;
+  if (cv::countNonZero(rest) <= least_px) return outlines;
+  cv::findContours(rest, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::erase_if(outlines,
+                [&](const OuterContour& outline) { return cv::contourArea(outline) <= least_px; });
+  return outlines;
+}
+
+FromTip SeenFrom(const Vector2d& tip, const Vector2d& along, const OuterContour& outline) {
+  FromTip seen;
+  for (const cv::Point& p : outline) {
+    const Vector2d from_tip = Vector2d(p.x, p.y) - tip;
+    seen.Add(from_tip.dot(along), Cross(along, from_tip));
   }
+  return seen;
+}
 
-  // All of them.
-  [[nodiscard]] std::vector<FromTip> SeenFrom(const Vector2d& tip, const Vector2d& along) const {
-    std::vector<FromTip> seen(area_px.size());
-    for (int y = 0; y < labels.rows; ++y) {
-      const int* label = labels.ptr<int>(y);
-      for (int x = 0; x < labels.cols; ++x) {
-        if (label[x] == 0) continue;
-        const Vector2d from_tip = Vector2d(x, y) - tip;
-        seen[static_cast<std::size_t>(label[x])].Add(
-            from_tip.dot(along), along.x() * from_tip.y() - along.y() * from_tip.x());
-      }
-    }
-    return seen;
-  }
-};
-
-// What goes on beyond a tip: the labels of things no wider than a limb's ring, the next of them
-// soon beyond it. Empty where they reach no further than specks do.
-std::vector<std::size_t> GoingOn(const OtherThings& things,
+// What goes on beyond a tip: which things, no wider than a limb's ring, the next of them soon
+// beyond it. Empty where they reach no further than specks do.
+std::vector<std::size_t> GoingOn(const std::vector<OuterContour>& things,
                                  const BladePair& pair,
                                  const BladeContour& blade) {
   constexpr double kFrom = -0.1, kSoon = 0.5, kAside = 0.4, kLong = 0.35;  // of the length
-  constexpr double kSoonWidths = 3, kLeastArea = 0.5;  // of the shanks, of their square
+  constexpr double kSoonWidths = 3;                                        // of the shanks
   const double soon = std::max(kSoon * blade.length, kSoonWidths * pair.shank_width);
-  const std::vector<FromTip> seen =
-      things.SeenFrom(blade.tip, (blade.tip - pair.pivot).normalized());
+  const Vector2d along = (blade.tip - pair.pivot).normalized();
   std::vector<std::size_t> going_on;
   FromTip all;
-  for (std::size_t label = 1; label < seen.size(); ++label) {
-    const FromTip& thing = seen[label];
-    if (things.area_px[label] <= kLeastArea * pair.shank_width * pair.shank_width) continue;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    const FromTip thing = SeenFrom(blade.tip, along, things[i]);
     if (thing.nearest < kFrom * blade.length || thing.nearest > soon + blade.length ||
         thing.aside > kAside * blade.length)
       continue;
-    going_on.push_back(label);
+    going_on.push_back(i);
     all.Add(thing.nearest, 0);
     all.Add(thing.farthest, 0);
   }
@@ -86,7 +79,9 @@ std::vector<std::size_t> GoingOn(const OtherThings& things,
 }  // namespace
 
 bool BothGoOnBeyondTips(const cv::Mat& mask, const Silhouette& silhouette, const BladePair& pair) {
-  const OtherThings things(mask, silhouette);
+  constexpr double kLeastArea = 0.5;  // of the shanks' width, squared
+  const std::vector<OuterContour> things =
+      OtherThings(mask, silhouette, kLeastArea * pair.shank_width * pair.shank_width);
   const std::vector<std::size_t> first = GoingOn(things, pair, pair.first);
   const std::vector<std::size_t> second = GoingOn(things, pair, pair.second);
   const bool share_one =

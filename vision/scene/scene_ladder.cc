@@ -165,8 +165,9 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   }
   const ColourPictures colour = SmallColour(view, kSmallSide);
   Consider(ColourRung(view, colour), "rung-colour", all, log);
-  const LadderResult in_colour =
-      Consider(ShadowBlindRung(view, colour), "rung-shadow-blind", all, log);
+  Rung shadow_blind = ShadowBlindRung(view, colour);
+  const cv::Mat without_shadows = shadow_blind.distance;
+  const LadderResult in_colour = Consider(std::move(shadow_blind), "rung-shadow-blind", all, log);
   if (grey_suffices && !full) {
     log->Ran("scene-colour", "another thing lies beside the scissors");
     result.several = result.several || in_colour.several;
@@ -193,7 +194,8 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
     return result;
   }
   Rung broad;  // by itself: what lines make look like blades is none
-  LadderResult in_broad = Consider(BroadRung(view, colour), "rung-broad", &broad, log);
+  LadderResult in_broad =
+      Consider(BroadRung(view, colour, without_shadows), "rung-broad", &broad, log);
   log->Ran("scene-broad", WhyRun(full, "lines may cross the ground"));
   // Without the slender parts, shanks are left that look like blades, but not like whole scissors.
   if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad) || !Consistent(in_broad))

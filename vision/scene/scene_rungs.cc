@@ -95,13 +95,12 @@ cv::Mat ShadowBlindDistance(const ColourPictures& colour) {
 // What is broader than printed lines, and the slender ends of that.
 cv::Mat WithoutLines(const cv::Mat& distance) {
   constexpr int kLinePx = 7, kEndsPx = 4;
+  const cv::Mat line = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kLinePx, kLinePx});
+  const cv::Mat neighbours = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
   cv::Mat broad;
-  cv::morphologyEx(distance,
-                   broad,
-                   cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {kLinePx, kLinePx}));
+  cv::morphologyEx(distance, broad, cv::MORPH_OPEN, line);
   for (int grown = 0; grown < kEndsPx; ++grown) {
-    cv::dilate(broad, broad, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+    cv::dilate(broad, broad, neighbours);
     cv::min(broad, distance, broad);
   }
   return broad;
@@ -159,9 +158,9 @@ Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
   return ThresholdAll(ShadowBlindDistance(colour), colour.ignore, like, view.hints);
 }
 
-Rung BroadRung(const SceneView& view, const ColourPictures& colour) {
+Rung BroadRung(const SceneView& view, const ColourPictures& colour, const cv::Mat& distance) {
   const Candidate like{{}, colour.lab, {}, "broad"};
-  return ThresholdAll(WithoutLines(ShadowBlindDistance(colour)), colour.ignore, like, view.hints);
+  return ThresholdAll(WithoutLines(distance), colour.ignore, like, view.hints);
 }
 
 Outlines OutlinesIn(const SceneView& view) {

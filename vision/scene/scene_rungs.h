@@ -21,9 +21,10 @@ inline constexpr int kOutlineSide = 960;
 [[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
 // By what a shadow does not do to the background.
 [[nodiscard]] Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour);
-
-// The same without lines, as of a cutting mat's grid.
-[[nodiscard]] Rung BroadRung(const SceneView& view, const ColourPictures& colour);
+// By a distance of those without lines, as of a cutting mat's grid.
+[[nodiscard]] Rung BroadRung(const SceneView& view,
+                             const ColourPictures& colour,
+                             const cv::Mat& distance);
 
 // The sharp outlines of a picture, which two rungs go by.
 struct Outlines {

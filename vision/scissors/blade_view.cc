@@ -81,15 +81,13 @@ std::optional<LocatedEdge> BladeView::InColoursAlone(const EdgeGuess& guess, dou
       [&] { return InViewOrHalved(ViewWhereSidesDiffer(Colours(), tone(), guess, shade), guess); });
 }
 
-std::optional<LocatedEdge> BladeView::InColoursThenGrey(const EdgeGuess& guess,
-                                                        double shade) const {
+std::optional<LocatedEdge> BladeView::ClearerInGrey(const LocatedEdge& coloured,
+                                                    bool blade_on_left) const {
   constexpr double kColoursOffPx = 2;
-  auto coloured = InColoursAlone(guess, shade);
-  if (!coloured) return std::nullopt;
-  auto in_grey = InGrey({TrendOf(*coloured), guess.blade_on_left, kColoursOffPx});
+  auto in_grey = InGrey({TrendOf(coloured), blade_on_left, kColoursOffPx});
   const bool clearer =
-      in_grey && in_grey->ambiguity < kAsGood && Information(*in_grey) > Information(*coloured);
-  return clearer ? in_grey : coloured;
+      in_grey && in_grey->ambiguity < kAsGood && Information(*in_grey) > Information(coloured);
+  return clearer ? std::move(in_grey) : std::nullopt;
 }
 
 std::optional<LocatedEdge> BladeView::InShadow(const EdgeGuess& guess, Shadow shadow) const {

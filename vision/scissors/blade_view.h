@@ -54,9 +54,9 @@ class BladeView {
   [[nodiscard]] std::optional<LocatedEdge> InColoursAlone(const EdgeGuess& guess,
                                                           double shade) const;
 
-  // The same, and in grey, which is sharper, where that shows an edge at the same place.
-  [[nodiscard]] std::optional<LocatedEdge> InColoursThenGrey(const EdgeGuess& guess,
-                                                             double shade) const;
+  // In grey, which is sharper, where that shows an edge where colours do.
+  [[nodiscard]] std::optional<LocatedEdge> ClearerInGrey(const LocatedEdge& coloured,
+                                                         bool blade_on_left) const;
 
   // The mixture of the colours in which the sides of an edge differ most, if it parts them much
   // better than grey does.

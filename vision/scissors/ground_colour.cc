@@ -39,11 +39,12 @@ void LeaveLightAlone(const BladeView& view,
            !is_far(border_along(*again));
   };
   for (const double shade : {0.0, kShade}) {
-    for (const bool then_grey : {true, false}) {
-      std::optional<LocatedEdge> again =
-          then_grey ? view.InColoursThenGrey(guess, shade) : view.InColoursAlone(guess, shade);
-      if (!is_border(again)) continue;
-      *edge = *std::move(again);
+    std::optional<LocatedEdge> coloured = view.InColoursAlone(guess, shade);
+    if (!coloured) continue;
+    std::optional<LocatedEdge> in_grey = view.ClearerInGrey(*coloured, left);
+    for (std::optional<LocatedEdge>* again : {&in_grey, &coloured}) {
+      if (!is_border(*again)) continue;
+      *edge = **std::move(again);
       return;
     }
   }

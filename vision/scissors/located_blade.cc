@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "vision/edge/edge_curve.h"
-#include "vision/image/along_across.h"
+#include "vision/image/covariance.h"
 #include "vision/image/cross.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
