@@ -102,13 +102,15 @@ void FillTheta(const Opening& opening,
                PhotoMeasurement* result) {
   result->theta_rad = given_rad.value_or(opening.theta_rad);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  result->theta_sigma_rad = given_rad ? kUnknown : opening.sigma_rad;
+  const double sigma_rad = std::hypot(opening.sigma_rad, opening.view_sigma_rad);
+  result->theta_sigma_rad = given_rad ? kUnknown : sigma_rad;
   result->theta_source = given_rad ? "given" : "distal-ends";
   result->seen_theta_rad = opening.theta_rad;
-  result->seen_theta_sigma_rad = opening.sigma_rad;
+  result->seen_theta_sigma_rad = sigma_rad;
   result->edges.theta_rad = result->theta_rad;
   result->edges.theta_sigma_rad = result->theta_sigma_rad;
   result->edges.theta_given = given_rad.has_value();
+  result->edges.view_theta_sigma_rad = opening.view_sigma_rad;
 }
 
 ScaleResult FindScaleInView(const Photo& photo, const ScaleOptions& options, StageLog* log) {
@@ -160,7 +162,7 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   const Pivot& pivot = scissors.pivot;
   const Blades& blades = scissors.blades;
   const PlaneMap map = MapFor(scale, options.scale, pivot, blades.upper);
-  const Opening opening = MeasureOpening(map, pivot, blades.upper, blades.lower);
+  const Opening opening = MeasureOpening(map, scale.camera, pivot, blades.upper, blades.lower);
   const BladeFrame frame(map, pivot.point_px, opening.x_in_plane);
 
   PhotoMeasurement result;

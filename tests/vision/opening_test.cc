@@ -11,6 +11,8 @@
 namespace bladecurve {
 namespace {
 
+using Eigen::Vector2d;
+
 // An edge from (100, y) to (600, y), y down, that ends at its last point.
 LocatedBlade StraightBlade(double y_px) {
   LocatedBlade blade;
@@ -41,7 +43,8 @@ Opening OpeningOf(const Spoilt& spoilt) {
   for (LocatedBlade* blade : {&blades.upper, &blades.lower})
     blade->edge.common_sigma_px = spoilt.common_sigma_px;
   DoubtUnlikeEnds(pivot, &blades);
-  return MeasureOpening(PlaneMap::Uniform(1, 0, "px"), pivot, blades.upper, blades.lower);
+  return MeasureOpening(
+      PlaneMap::Uniform(1, 0, "px"), std::nullopt, pivot, blades.upper, blades.lower);
 }
 
 TEST(MeasureOpening, DoubtsTheAngleOfEdgesThatAreNoMirrorImages) {
@@ -58,6 +61,34 @@ TEST(MeasureOpening, IsAsUncertainAsTheOffsetThatBothEdgesShare) {
   constexpr double kOffsetPx = 2, kReachPx = 600;
   const Opening opening = OpeningOf({0, kOffsetPx});
   EXPECT_NEAR(opening.sigma_rad, 2 * kOffsetPx / kReachPx, 0.05 * 2 * kOffsetPx / kReachPx);
+}
+
+// A point of the plane as a camera slanted by that angle about the vertical axis sees it.
+Vector2d SeenAtSlant(const Camera& camera, double slant_rad, const Vector2d& from_middle) {
+  const double f = camera.focal_length_px();
+  const double depth = f + from_middle.x() * std::sin(slant_rad);
+  return camera.k.topRightCorner<2, 1>() +
+         f / depth * Vector2d(from_middle.x() * std::cos(slant_rad), from_middle.y());
+}
+
+// Of straight blades whose places in the plane are counted from the picture's middle.
+Opening OpeningAtSlant(const Camera& camera, double slant_rad) {
+  Blades blades{StraightBlade(-60), StraightBlade(60)};
+  blades.upper.end.point_px = SeenAtSlant(camera, slant_rad, {0, -300});
+  blades.lower.end.point_px = SeenAtSlant(camera, slant_rad, {0, 300});
+  Pivot pivot;
+  pivot.point_px = SeenAtSlant(camera, slant_rad, {-700, 0});
+  return MeasureOpening(
+      PlaneMap::Uniform(1, 0, "px"), CameraKnowledge{camera}, pivot, blades.upper, blades.lower);
+}
+
+// About the other axis a slant turns both blades alike.
+TEST(MeasureOpening, KnowsWhatAnUnknownSlantDoesToTheAngle) {
+  const Camera camera = CentredCamera(2000, 1600, 1200);
+  const Opening from_above = OpeningAtSlant(camera, 0);
+  const double moved = OpeningAtSlant(camera, kFreehandSlantRad).theta_rad - from_above.theta_rad;
+  EXPECT_GT(std::abs(moved), 0.01);
+  EXPECT_NEAR(from_above.view_sigma_rad, std::abs(moved), 0.1 * std::abs(moved));
 }
 
 }  // namespace

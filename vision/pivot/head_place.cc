@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "vision/image/covariance.h"
 
@@ -23,15 +22,14 @@ double HeightPx(const ScaleResult& scale, const Scene& scene, const Vector2d& he
 }
 
 // Seen a little from the side, the head is not where the axis meets the plane of the edges. Without
-// markers nobody knows from which side: pictures taken from above are about three degrees off. A
-// camera near by shows what stands aside of the picture's middle from there; where it is not known,
-// nor whether the picture is but a part of another, that is no more than possible.
+// markers nobody knows from which side. A camera near by shows what stands aside of the picture's
+// middle from there; where it is not known, nor whether the picture is but a part of another, that
+// is no more than possible.
 PlacePx BelowHead(const Vector2d& head_px, const ScaleResult& scale, const Scene& scene) {
   if (scale.sheet)
     return FootOf(*scale.sheet, {head_px, scale.plane_height_mm, kHeadMm, kHeadSigmaMm});
-  constexpr double kAsideRad = 3 * std::numbers::pi / 180;
   const double height_px = HeightPx(scale, scene, head_px);
-  PlacePx foot{head_px, std::pow(height_px * kAsideRad, 2) * Eigen::Matrix2d::Identity()};
+  PlacePx foot{head_px, std::pow(height_px * kFreehandSlantRad, 2) * Eigen::Matrix2d::Identity()};
   if (!scale.camera) return foot;
   const Camera& camera = scale.camera->camera;
   const Vector2d leaning =

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <optional>
 
 #include "vision/photo/photo.h"
@@ -16,6 +17,10 @@ inline constexpr double kCalibratedK1Sigma = 0.002;
 
 // Standard uncertainty of its logarithm below which a focal length counts as known.
 inline constexpr double kFocalKnown = 0.15;
+
+// By how much pictures taken from above are off the vertical, about either axis of the picture,
+// where nothing tells: a standard uncertainty, rad.
+inline constexpr double kFreehandSlantRad = 3 * std::numbers::pi / 180;
 
 // What is known of the camera beforehand. A sigma of zero: exactly.
 struct CameraKnowledge {
