@@ -346,6 +346,9 @@ TEST(BothGoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
     cv::ellipse(*mask, at, axes, 0, 100, 260, 255, 6);
     cv::ellipse(*mask, at, axes, 0, -80, 80, 255, 6);
   }));
+  EXPECT_TRUE(GoOnBeyond([&](cv::Mat* mask, const cv::Point& at) {
+    cv::ellipse(*mask, at, axes, 0, -170, 170, 255, 1);
+  })) << "nothing of them but a line";
   EXPECT_FALSE(GoOnBeyond([&](cv::Mat* mask, const cv::Point& at) {
     if (at.y > 200) cv::ellipse(*mask, at, axes, 0, 0, 300, 255, 6);
   })) << "beyond one of them";

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "vision/image/contour_area.h"
 #include "vision/pivot/screw_field.h"
 #include "vision/pivot/screw_slot.h"
 
@@ -50,9 +51,7 @@ std::optional<Bar> BarOf(const std::vector<cv::Point>& outline) {
   const double length = std::max(box.size.width, box.size.height) + 1;
   const double width = std::min(box.size.width, box.size.height) + 1;
   if (length < kSlender * width) return std::nullopt;
-  // An outline runs through the pixels' centres.
-  const double area = cv::contourArea(outline) + 0.5 * cv::arcLength(outline, true) + 1;
-  if (area < kFilled * length * width) return std::nullopt;
+  if (PixelsWithin(outline) < kFilled * length * width) return std::nullopt;
   return Bar{box.center, 0.5 * length};
 }
 

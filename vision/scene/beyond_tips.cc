@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/image/contour_area.h"
 #include "vision/image/cross.h"
 
 namespace bladecurve {
@@ -39,7 +40,7 @@ std::vector<OuterContour> OtherThings(const cv::Mat& mask, const Silhouette& one
   if (cv::countNonZero(rest) <= least_px) return outlines;
   cv::findContours(rest, outlines, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::erase_if(outlines,
-                [&](const OuterContour& outline) { return cv::contourArea(outline) <= least_px; });
+                [&](const OuterContour& outline) { return PixelsWithin(outline) <= least_px; });
   return outlines;
 }
 
