@@ -107,11 +107,22 @@ bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
   };
   const Rise first = rise(pair.shank_first, pair.shank_second);
   const Rise second = rise(pair.shank_second, pair.shank_first);
+  const auto rise_outside = [&](const Vector2d& end, const Vector2d& other_end) {
+    Shank shank = ShankTo(end, other_end, *pair.shank_crotch);
+    shank.inwards = -shank.inwards;
+    return HighestRise(filled, shank, pair.shanks_run_out).height_px;
+  };
+  const double inside_px = std::min(first.height_px, second.height_px);
   // The shanks of a pair are as wide; a shadow beside one of them is not its own.
   const double width_px = std::min(first.width_px, second.width_px);
-  return std::min(first.height_px, second.height_px) > kHigh * width_px &&
-         std::abs(first.along_px - second.along_px) <
-             kAlike * std::max(first.along_px, second.along_px);
+  const bool alike = std::abs(first.along_px - second.along_px) <
+                     kAlike * std::max(first.along_px, second.along_px);
+  if (inside_px <= kHigh * width_px || !alike) return false;
+  // What clings to the outer sides as well, as of veined marble, is no part of the instrument; but
+  // rings that the frame cuts begin there.
+  return pair.shanks_run_out ||
+         inside_px > std::max(rise_outside(pair.shank_first, pair.shank_second),
+                              rise_outside(pair.shank_second, pair.shank_first));
 }
 
 }  // namespace bladecurve
