@@ -141,7 +141,7 @@ TEST(RefuseContestedHead, LeavesOneAboutWhichEdgesSeenFromAKnownSideMirrorEachOt
   EXPECT_THROW(RefuseContestedHead(pivot, tilt_known), Refused);
 }
 
-TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMirrorEachOther) {
+TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAboutWhichTheEdgesMirrorEachOther) {
   Scene plain, doubtful, outlined;
   plain.quality = 0.9;
   doubtful.quality = 0.5;
@@ -149,24 +149,29 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAndForLinesOneAboutWhichTheyMi
   outlined.outlined = true;
   Pivot inferred = PivotSeen(0);
   inferred.source = "geometry";
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, inferred));
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, {}, inferred));
   Scene fair = plain;
   fair.quality = 0.78;
   const auto reason = [&](const Scene& scene) {
     try {
-      RefuseUnconfirmedScene(scene, inferred);
+      RefuseUnconfirmedScene(scene, {}, inferred);
     } catch (const Refused& refused) {
       return refused.reason();
     }
     return Reason::kFitFailed;  // stands for none
   };
   EXPECT_EQ(reason(fair), Reason::kAmbiguousPivot);
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(fair, PivotSeen(-0.1)));
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(fair, {}, PivotSeen(-0.1)));
   EXPECT_EQ(reason(doubtful), Reason::kLowContrast);
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, PivotSeen(-0.1)));
-  EXPECT_THROW(RefuseUnconfirmedScene(outlined, inferred), Refused);
-  EXPECT_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(-0.1)), Refused);
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(outlined, PivotSeen(0.05)));
+  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, {}, PivotSeen(-0.1)), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, {}, PivotSeen(-0.05)));
+  ScaleResult tilt_known;
+  tilt_known.sheet.emplace();
+  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, tilt_known, PivotSeen(-0.05)), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, tilt_known, PivotSeen(-0.01)));
+  EXPECT_THROW(RefuseUnconfirmedScene(outlined, {}, inferred), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(outlined, {}, PivotSeen(-0.1)), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(outlined, {}, PivotSeen(0.05)));
 }
 
 TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
@@ -177,14 +182,14 @@ TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   inferred.source = "geometry";
   plain.screw.emplace().evidence = kFaintHead + 1;
   faint.screw.emplace().evidence = kFaintHead - 1;
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, plain));
-  EXPECT_THROW(RefuseUnconfirmedScene(again, faint), Refused);
-  EXPECT_THROW(RefuseUnconfirmedScene(again, inferred), Refused);
-  EXPECT_THROW(RefuseUnconfirmedScene(again, PivotSeen(0.1)), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, {}, plain));
+  EXPECT_THROW(RefuseUnconfirmedScene(again, {}, faint), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(again, {}, inferred), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(again, {}, PivotSeen(0.1)), Refused);
   plain.unlikeness = 0.02;
-  EXPECT_THROW(RefuseUnconfirmedScene(again, plain), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(again, {}, plain), Refused);
   again.second_look = false;
-  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, faint));
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(again, {}, faint));
 }
 
 TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {

@@ -158,16 +158,18 @@ void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale) {
                 "pivot; say where it is: --pivot X,Y; or light the screw");
 }
 
-void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot) {
+void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot) {
   constexpr double kMost = 0.07;    // of the length; blades photographed at a slant differ by 0.05
   constexpr double kAlike = 0.015;  // of the length, in shape; where both are seen, up to 0.0125
   constexpr double kPlain = 0.8;    // quality; lines on a mat that cross look like worse ones
   const bool faint = pivot.screw && IsFaint(*pivot.screw);
   const bool seen = pivot.source != "geometry" && !(scene.second_look && faint);
-  const bool mirrored = std::abs(pivot.asymmetry) < kMost && pivot.unlikeness < kAlike;
+  const bool at_a_slant = !scale.sheet || pivot.bent;
+  const bool pass_alike =
+      at_a_slant ? std::abs(pivot.asymmetry) < kMost : !AreUnlike(pivot.asymmetry);
+  const bool mirrored = pass_alike && pivot.unlikeness < kAlike;
   const bool doubtful = scene.IsDoubtful() || (!seen && scene.quality < kPlain);
-  const bool must_mirror = scene.outlined || scene.second_look;
-  if (!doubtful || (seen && (mirrored || !must_mirror))) return;
+  if (!doubtful || (seen && mirrored)) return;
   if (!scene.IsDoubtful()) {
     throw Refused(
         Reason::kAmbiguousPivot,

@@ -60,10 +60,10 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blade
 void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale);
 
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms
-// it: where blades were told from their ground by sharp lines alone, or at a second look, the edges
-// mirror each other about it, in shape as well, and a second look needs more than a faint head.
-// Where none is seen the scene must be plainer: else Refused{kAmbiguousPivot}.
-void RefuseUnconfirmedScene(const Scene& scene, const Pivot& pivot);
+// it: the edges mirror each other about it as far as the view is known, in shape as well, and a
+// second look needs more than a faint head. Where none is seen the scene must be plainer: else
+// Refused{kAmbiguousPivot}.
+void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot);
 
 // Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
 // elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they

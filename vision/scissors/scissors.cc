@@ -90,7 +90,7 @@ void DropFalseHead(const BladeView& view, const Blades& blades, Pivot* pivot, St
 void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* blades) {
   RefuseContestedHead(pivot, view.scale());
   RefuseUnlikeEdges(pivot, view.scale(), *blades);
-  RefuseUnconfirmedScene(view.scene(), pivot);
+  RefuseUnconfirmedScene(view.scene(), view.scale(), pivot);
   CutWhereEdgesPart(view, pivot, blades);
   ConfirmMirroredEdges(view, pivot, blades);
   DoubtKinkedEdges(blades);
