@@ -167,7 +167,7 @@ void SetLowerEnd(const EdgePoints& photo, double length_mm, PhotoData& data) {
 // theta_rad that came from the ends says nothing beyond them, unless the lower end is missing.
 void SetTheta(const EdgePoints& photo, PhotoData& data) {
   data.theta_given = photo.theta_given;
-  data.view_theta_sigma = photo.view_theta_sigma_rad;
+  data.view_theta_sigma = photo.theta_given ? 0 : photo.view_theta_sigma_rad;
   if (!photo.theta_given && data.lower_end) return;
   if (!std::isfinite(photo.theta_rad)) {
     Refuse(photo, Reason::kFitFailed, "neither the lower distal end nor theta is known");

@@ -44,7 +44,7 @@ struct PhotoData {
   std::optional<double> theta;     // rad; observed by other means than the ends
   double theta_weight = 0;
   bool theta_given = false;
-  double view_theta_sigma = 0;  // rad; of the angle between all that is seen of the blades
+  double view_theta_sigma = 0;  // rad; of theta, where it is not given
   double scale_weight = 0, offset_weight = 0;
   Pose start{};
 

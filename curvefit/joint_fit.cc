@@ -256,8 +256,8 @@ std::vector<FittedPose> PosesInMm(const FitData& data,
     out.pivot_sigma_mm = std::sqrt(out.pivot_covariance_mm2.trace() / 2);
     out.axis_sigma_rad = std::sqrt(std::max(0.0, sum + cross)) / 2;
     // What the view does to the angle between the blades, no point of them tells.
-    const double unseen = data.photos[p].theta_given ? 0 : data.photos[p].view_theta_sigma;
-    out.theta_sigma_rad = std::hypot(std::sqrt(std::max(0.0, sum - cross)), unseen);
+    out.theta_sigma_rad =
+        std::hypot(std::sqrt(std::max(0.0, sum - cross)), data.photos[p].view_theta_sigma);
     out.scale_relative = pose[kScale];
     out.offset_mm = data.length_mm * pose[kOffset];
     poses.push_back(out);

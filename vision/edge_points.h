@@ -42,7 +42,8 @@ struct EdgePoints {
   double theta_sigma_rad =
       std::numeric_limits<double>::quiet_NaN();  // NaN: not known; taken for half a degree
   bool theta_given = false;  // the user said it (--theta-deg): then it is an observation of its own
-  // By which an unknown slant of the camera turns the blades apart, both with all their points.
+  // Beside theta_sigma_rad: by how much an unknown slant of the camera turns the blades apart, each
+  // with all its points.
   double view_theta_sigma_rad = 0;
   double scale_relative_sigma = 0;   // standard uncertainty of mm per pixel, relative
   double correlation_length_mm = 0;  // neighbouring points closer than this are not independent

@@ -108,7 +108,7 @@ void FillTheta(const Opening& opening,
   result->seen_theta_rad = opening.theta_rad;
   result->seen_theta_sigma_rad = sigma_rad;
   result->edges.theta_rad = result->theta_rad;
-  result->edges.theta_sigma_rad = result->theta_sigma_rad;
+  result->edges.theta_sigma_rad = given_rad ? kUnknown : opening.sigma_rad;
   result->edges.theta_given = given_rad.has_value();
   result->edges.view_theta_sigma_rad = opening.view_sigma_rad;
 }

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "vision/pivot/screw_refinement.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "vision/image/covariance.h"
 #include "vision/parallel.h"
 #include "vision/pivot/screw_evidence.h"
 #include "vision/pivot/screw_field.h"
@@ -155,7 +155,7 @@ bool Gains(const RimFit& in_grain, const RimFit& plain) {
   constexpr double kSame = 5.99;  // chi^2 of two coordinates, 95 %
   const Eigen::Vector2d apart = in_grain.rim.center - plain.rim.center;
   return Scatter(in_grain) < kLess * Scatter(plain) &&
-         apart.dot(plain.center_covariance.inverse() * apart) < kSame;
+         ChiSquare(apart, plain.center_covariance) < kSame;
 }
 
 // Makes the ground about the head even and fits there anew; the light as it was if that fails, or

@@ -27,6 +27,8 @@ Shank ShankTo(const Vector2d& end, const Vector2d& other_end, const Vector2d& cr
   return {crotch, end, (other_end - end).dot(across) > 0 ? across : -across};
 }
 
+Shank OuterSideOf(const Shank& shank) { return {shank.from, shank.to, -shank.inwards}; }
+
 // Where a shank begins and ends across its line at a share of its length, px inwards of it: the run
 // that lies beside `last` the longest way, or nearest to it; `last` again if there is none.
 Run FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Run& last) {
@@ -102,16 +104,12 @@ bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
   constexpr double kHigh = 0.5;  // of the shanks' width; ragged masks of scissors reach 0.4
   constexpr double kAlike = 0.1;
   if (!pair.shank_crotch) return false;
-  const auto rise = [&](const Vector2d& end, const Vector2d& other_end) {
-    return HighestRise(filled, ShankTo(end, other_end, *pair.shank_crotch), pair.shanks_run_out);
+  const Shank first_shank = ShankTo(pair.shank_first, pair.shank_second, *pair.shank_crotch);
+  const Shank second_shank = ShankTo(pair.shank_second, pair.shank_first, *pair.shank_crotch);
+  const auto rise_on = [&](const Shank& shank) {
+    return HighestRise(filled, shank, pair.shanks_run_out);
   };
-  const Rise first = rise(pair.shank_first, pair.shank_second);
-  const Rise second = rise(pair.shank_second, pair.shank_first);
-  const auto rise_outside = [&](const Vector2d& end, const Vector2d& other_end) {
-    Shank shank = ShankTo(end, other_end, *pair.shank_crotch);
-    shank.inwards = -shank.inwards;
-    return HighestRise(filled, shank, pair.shanks_run_out).height_px;
-  };
+  const Rise first = rise_on(first_shank), second = rise_on(second_shank);
   const double inside_px = std::min(first.height_px, second.height_px);
   // The shanks of a pair are as wide; a shadow beside one of them is not its own.
   const double width_px = std::min(first.width_px, second.width_px);
@@ -120,9 +118,8 @@ bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
   if (inside_px <= kHigh * width_px || !alike) return false;
   // What clings to the outer sides as well, as of veined marble, is no part of the instrument; but
   // rings that the frame cuts begin there.
-  return pair.shanks_run_out ||
-         inside_px > std::max(rise_outside(pair.shank_first, pair.shank_second),
-                              rise_outside(pair.shank_second, pair.shank_first));
+  return pair.shanks_run_out || inside_px > std::max(rise_on(OuterSideOf(first_shank)).height_px,
+                                                     rise_on(OuterSideOf(second_shank)).height_px);
 }
 
 }  // namespace bladecurve
