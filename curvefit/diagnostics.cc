@@ -69,18 +69,18 @@ std::vector<std::array<double, 2 * Degree + 1>> LeverageOf(const FitData& data,
   const int size = points.space().size();
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
   for (size_t i = 0; i < spans.size(); ++i) {
-    const auto basis = BasisOf<Degree>(spans[i]);
+    const Eigen::MatrixXd basis = BasisOf(spans[i], Degree);
     const auto first = static_cast<Eigen::Index>(i);
-    normal.block<kBasis, kBasis>(first, first) += basis.transpose() * sums[i].AllProducts() * basis;
+    normal.block(first, first, kBasis, kBasis) += basis.transpose() * sums[i].AllProducts() * basis;
   }
   normal.diagonal().array() += 1e-13 * normal.diagonal().maxCoeff();  // spans without points
   const Eigen::MatrixXd inverse = normal.ldlt().solve(Eigen::MatrixXd::Identity(size, size));
   std::vector<std::array<double, 2 * Degree + 1>> leverage(spans.size());
   for (size_t i = 0; i < spans.size(); ++i) {
-    const auto basis = BasisOf<Degree>(spans[i]);
+    const Eigen::MatrixXd basis = BasisOf(spans[i], Degree);
     const auto first = static_cast<Eigen::Index>(i);
-    const Eigen::Matrix<double, kBasis, kBasis> form =
-        basis * inverse.block<kBasis, kBasis>(first, first) * basis.transpose();
+    const Eigen::MatrixXd form =
+        basis * inverse.block(first, first, kBasis, kBasis) * basis.transpose();
     leverage[i].fill(0);
     for (int a = 0; a <= Degree; ++a) {
       for (int b = 0; b <= Degree; ++b) leverage[i][a + b] += form(a, b);

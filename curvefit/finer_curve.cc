@@ -91,13 +91,13 @@ void AddEdge(const EdgeSamples& edge,
     sums[span].Add(t, edge.weights[i] * cosine, {edge.weights[i] * (d + pose[kOffset])});
   }
   for (size_t s = 0; s < spans.size(); ++s) {
-    const Eigen::Matrix<double, kBasis, kBasis> basis = BasisOf<Degree>(spans[s]);
-    const auto products = sums[s].AllProducts();
+    const Eigen::MatrixXd basis = BasisOf(spans[s], Degree);
+    const Eigen::MatrixXd products = sums[s].AllProducts();
     const auto first = static_cast<Eigen::Index>(s);
-    equations.matrix.block<kBasis, kBasis>(first, first) +=
-        basis.transpose() * products.template topLeftCorner<kBasis, kBasis>() * basis;
+    equations.matrix.block(first, first, kBasis, kBasis) +=
+        basis.transpose() * products.topLeftCorner(kBasis, kBasis) * basis;
     equations.right.segment<kBasis>(first) +=
-        basis.transpose() * products.template topRightCorner<kBasis, 1>();
+        basis.transpose() * products.col(kBasis).head<kBasis>();
   }
 }
 

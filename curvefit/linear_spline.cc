@@ -35,36 +35,30 @@ struct NormalEquations {
       : matrix(Eigen::MatrixXd::Zero(size, size)), right(Eigen::VectorXd::Zero(size)) {}
 
   // The points of the first photograph in one span, as basis functions and v.
-  template <int Degree, int Extra>
-  void AddFirst(const Span& span, int first, const SpanSums<Degree, Extra>& sums) {
-    constexpr int kBasis = Degree + 1;
-    const auto products = sums.AllProducts();
-    const auto basis = BasisOf<Degree>(span);
-    matrix.block<kBasis, kBasis>(first, first) +=
-        basis.transpose() * products.template topLeftCorner<kBasis, kBasis>() * basis;
-    right.segment<kBasis>(first) +=
-        basis.transpose() * products.template block<kBasis, 1>(0, kBasis + kValue);
+  void AddFirst(const Eigen::MatrixXd& basis, int first, const Eigen::MatrixXd& products) {
+    const Eigen::Index size = basis.cols();
+    matrix.block(first, first, size, size) +=
+        basis.transpose() * products.topLeftCorner(size, size) * basis;
+    right.segment(first, size) += basis.transpose() * products.col(size + kValue).head(size);
   }
 
   // Those of another one: its motions as well, in the columns from `motion` on.
-  template <int Degree>
-  void AddMoving(const Span& span, int first, int motion, const SpanSums<Degree, 2>& sums) {
-    AddFirst(span, first, sums);
-    constexpr int kBasis = Degree + 1;
-    const auto products = sums.AllProducts();
-    Eigen::Matrix<double, kBasis + 2, kBasis + kMotions> columns;
-    columns.setZero();
-    columns.template topLeftCorner<kBasis, kBasis>() = BasisOf<Degree>(span);
-    columns(0, kBasis) = 1;
-    columns(0, kBasis + 1) = span.centre;  // u = centre + t/scale
-    columns(1, kBasis + 1) = 1 / span.scale;
-    columns(kBasis + kSlope, kBasis + 2) = 1;
-    const auto by_motions = (columns.template rightCols<kMotions>().transpose() * products).eval();
-    matrix.block<kMotions, kBasis>(motion, first) +=
-        by_motions * columns.template leftCols<kBasis>();
-    matrix.block<kMotions, kMotions>(motion, motion) +=
-        by_motions * columns.template rightCols<kMotions>();
-    right.segment<kMotions>(motion) += by_motions.col(kBasis + kValue);
+  void AddMoving(const Eigen::MatrixXd& basis,
+                 const Span& span,
+                 int first,
+                 int motion,
+                 const Eigen::MatrixXd& products) {
+    AddFirst(basis, first, products);
+    const Eigen::Index size = basis.cols();
+    Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(size + 2, kMotions);
+    motions(0, 0) = 1;
+    motions(0, 1) = span.centre;  // u = centre + t/scale
+    motions(1, 1) = 1 / span.scale;
+    motions(size + kSlope, 2) = 1;
+    const Eigen::MatrixXd by_motions = motions.transpose() * products;
+    matrix.block(motion, first, kMotions, size) += by_motions.leftCols(size) * basis;
+    matrix.block<kMotions, kMotions>(motion, motion) += by_motions * motions;
+    right.segment<kMotions>(motion) += by_motions.col(size + kValue);
   }
 };
 
@@ -96,7 +90,7 @@ void AddOnePhoto(const std::vector<FlatPoint>& points,
     sums.Add(t, point.weight, {point.weight * point.v});
   };
   const auto flush = [&](size_t span) {
-    equations.AddFirst(spans[span], static_cast<int>(span), sums);
+    equations.AddFirst(BasisOf(spans[span], Degree), static_cast<int>(span), sums.AllProducts());
     sums = {};
   };
   SpanBySpan(points, spans, add, flush);
@@ -114,9 +108,11 @@ void AddPhotos(const std::vector<FlatPoint>& points,
   };
   const auto flush = [&](size_t span) {
     const int first = static_cast<int>(span);
-    equations.AddFirst(spans[span], first, sums[0]);
+    const Eigen::MatrixXd basis = BasisOf(spans[span], Degree);
+    equations.AddFirst(basis, first, sums[0].AllProducts());
     for (int photo = 1; photo < photos; ++photo) {
-      equations.AddMoving(spans[span], first, MotionColumn(space, photo), sums[photo]);
+      equations.AddMoving(
+          basis, spans[span], first, MotionColumn(space, photo), sums[photo].AllProducts());
     }
     for (auto& sum : sums) sum = {};
   };

@@ -77,7 +77,7 @@ Estimate EstimateFrom(const Eigen::MatrixXd& jacobian) {
   Eigen::VectorXd scale = jacobian.colwise().norm();
   for (double& s : scale) s = s > 0 ? s : 1;
   const Eigen::VectorXd inverse = scale.cwiseInverse();
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(jacobian * inverse.asDiagonal(), Eigen::ComputeThinV);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian * inverse.asDiagonal(), Eigen::ComputeThinV);
   const Eigen::VectorXd& values = svd.singularValues();
   Estimate estimate;
   Eigen::VectorXd reciprocal = Eigen::VectorXd::Zero(values.size());

@@ -17,7 +17,6 @@ template <int Degree, int Extra>
 class SpanSums {
  public:
   static constexpr int kSize = Degree + 1 + Extra;
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
 
   void Add(double t, double w, const std::array<double, Extra>& extra) {
     std::array<double, Degree + 1> column;
@@ -30,8 +29,10 @@ class SpanSums {
     }
   }
 
-  [[nodiscard]] Matrix AllProducts() const {
-    Matrix all;
+  // (kSize, kSize); of a size known when it runs: what is made of it once a span is not worth
+  // unrolling for every degree.
+  [[nodiscard]] Eigen::MatrixXd AllProducts() const {
+    Eigen::MatrixXd all(kSize, kSize);
     for (int i = 0; i <= Degree; ++i) {
       for (int j = 0; j <= Degree; ++j) all(i, j) = powers_[i + j];
     }

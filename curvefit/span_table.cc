@@ -52,6 +52,14 @@ std::vector<Span> SpansOf(const SplineSpace& space) {
   return spans;
 }
 
+Eigen::MatrixXd BasisOf(const Span& span, int degree) {
+  Eigen::MatrixXd basis(degree + 1, degree + 1);
+  for (int j = 0; j <= degree; ++j) {
+    for (int k = 0; k <= degree; ++k) basis(k, j) = span.basis[j][k];
+  }
+  return basis;
+}
+
 std::vector<Piece> PiecesOf(const std::vector<Span>& spans,
                             int degree,
                             const Eigen::VectorXd& coefficients) {

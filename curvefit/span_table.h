@@ -31,14 +31,7 @@ struct Span {
 [[nodiscard]] std::vector<Span> SpansOf(const SplineSpace& space);
 
 // The basis functions of a span: powers of t by functions.
-template <int Degree>
-[[nodiscard]] Eigen::Matrix<double, Degree + 1, Degree + 1> BasisOf(const Span& span) {
-  Eigen::Matrix<double, Degree + 1, Degree + 1> basis;
-  for (int j = 0; j <= Degree; ++j) {
-    for (int k = 0; k <= Degree; ++k) basis(k, j) = span.basis[j][k];
-  }
-  return basis;
-}
+[[nodiscard]] Eigen::MatrixXd BasisOf(const Span& span, int degree);
 
 // Index of the span of u; fast for places in order, where `hint` is the answer for the last one.
 [[nodiscard]] inline size_t FindSpan(const std::vector<Span>& spans, double u, size_t hint) {

@@ -29,24 +29,21 @@ struct NormalEquations {
 
   // The points of one span; `columns` by coefficients from `first` on, then by the place of the
   // edge.
-  template <typename Products, typename Columns>
-  void Add(const Products& products, const Columns& columns, int first, int first_place) {
-    constexpr int kSums = Columns::RowsAtCompileTime, kAll = Columns::ColsAtCompileTime;
-    constexpr int kBasis = kAll - kEdgeSize;
-    const auto all =
-        (columns.transpose() * products.template topLeftCorner<kSums, kSums>() * columns).eval();
-    const auto gradient =
-        (columns.transpose() * products.template topRightCorner<kSums, 1>()).eval();
-    matrix.block<kBasis, kBasis>(first, first) += all.template topLeftCorner<kBasis, kBasis>();
-    matrix.block<kEdgeSize, kBasis>(first_place, first) +=
-        all.template bottomLeftCorner<kEdgeSize, kBasis>();
-    matrix.block<kBasis, kEdgeSize>(first, first_place) +=
-        all.template topRightCorner<kBasis, kEdgeSize>();
+  void Add(const Eigen::MatrixXd& products,
+           const Eigen::MatrixXd& columns,
+           int first,
+           int first_place) {
+    const Eigen::Index sums = columns.rows(), basis = columns.cols() - kEdgeSize;
+    const Eigen::MatrixXd by_sums = columns.transpose() * products.topRows(sums);
+    const Eigen::MatrixXd all = by_sums.leftCols(sums) * columns;
+    matrix.block(first, first, basis, basis) += all.topLeftCorner(basis, basis);
+    matrix.block(first_place, first, kEdgeSize, basis) += all.bottomLeftCorner(kEdgeSize, basis);
+    matrix.block(first, first_place, basis, kEdgeSize) += all.topRightCorner(basis, kEdgeSize);
     matrix.block<kEdgeSize, kEdgeSize>(first_place, first_place) +=
-        all.template bottomRightCorner<kEdgeSize, kEdgeSize>();
-    right.segment<kBasis>(first) += gradient.template head<kBasis>();
-    right.segment<kEdgeSize>(first_place) += gradient.template tail<kEdgeSize>();
-    squares += products(kSums, kSums);
+        all.bottomRightCorner<kEdgeSize, kEdgeSize>();
+    right.segment(first, basis) += by_sums.col(sums).head(basis);
+    right.segment<kEdgeSize>(first_place) += by_sums.col(sums).tail<kEdgeSize>();
+    squares += products(sums, sums);
   }
 };
 

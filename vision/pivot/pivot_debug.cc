@@ -70,7 +70,8 @@ cv::Mat DrawPivot(const cv::Mat& grey, const Scene& scene, const Pivot& pivot) {
                 {0, 255, 0},
                 &picture);
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(pivot.covariance_px2);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread;
+  spread.computeDirect(pivot.covariance_px2);
   const Vector2d major = spread.eigenvectors().col(1);
   DrawEllipse(cutout,
               pivot.point_px,

@@ -168,9 +168,12 @@ VectorXd TiltedTheOtherWay(const SheetProblem& problem, const VectorXd& x) {
   const Vector3d seen = pose.camera_from_sheet * middle + pose.sheet_in_camera_mm;
   const Vector3d sight = seen.normalized();
   const Vector3d normal = pose.camera_from_sheet.col(2);
-  const Vector3d mirrored = 2 * normal.dot(sight) * sight - normal;
-  const Matrix3d rotation =
-      Eigen::Quaterniond::FromTwoVectors(normal, mirrored) * pose.camera_from_sheet;
+  // Half a turn about the normal, then one about the line of sight: turns the normal in their
+  // plane.
+  const auto half_turn = [](const Vector3d& axis) -> Matrix3d {
+    return 2 * axis * axis.transpose() - Matrix3d::Identity();
+  };
+  const Matrix3d rotation = half_turn(sight) * half_turn(normal) * pose.camera_from_sheet;
   VectorXd other = x;
   sheet::SetPose(rotation, seen - rotation * middle, &other);
   return other;

@@ -39,7 +39,8 @@ FittedLine LineThrough(const std::vector<Vector2d>& path, double from_share, dou
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (std::size_t i = first; i < end; ++i)
     scatter += (path[i] - mean) * (path[i] - mean).transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(scatter);
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen;
+  eigen.computeDirect(scatter);
   Vector2d direction = eigen.eigenvectors().col(1);
   if (direction.dot(path.back() - path.front()) < 0) direction = -direction;
   return {mean, direction};
