@@ -551,6 +551,21 @@ TEST(ShanksCarryCatches, TakesNoRingsThatTheFrameCutsForCatches) {
   }
 }
 
+// Where the frame cuts them in the middle, they begin well before the ends of the shanks.
+TEST(ShanksCarryCatches, TakesNoHalfRingsForCatches) {
+  for (const bool catches : {false, true}) {
+    DrawnShanks shanks([&](int, cv::Mat& mask, const auto& at) {
+      cv::line(mask, at(0, 180), at(96, 340), 255, 18);
+      cv::circle(mask, at(150, 390), 62, 255, 16);
+      if (catches) cv::line(mask, at(58, 290), at(42, 300), 255, 16);
+      return at(200, 390);
+    });
+    shanks.pair.shanks_run_out = true;
+    shanks.mask = shanks.mask.rowRange(0, 391);
+    EXPECT_EQ(shanks.CarryCatches(), catches);
+  }
+}
+
 // A shadow makes one shank look wider than the other, and its catch lower.
 TEST(ShanksCarryCatches, FindsTheCatchOfAShankThatLooksWide) {
   for (const bool catches : {false, true}) {

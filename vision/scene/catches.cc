@@ -60,8 +60,22 @@ double SlopeOf(const std::vector<Run>& sides, int first, int last) {
   return Median(std::move(slopes));
 }
 
+// The first step at which a shank is much wider than before to its outer side, as where a ring
+// begins; the number of steps if there is none.
+int RingBegins(const std::vector<Run>& sides, int first, double width_px, double slope) {
+  constexpr int kSpan = 3;        // steps
+  constexpr double kWider = 0.6;  // of the width
+  const int steps = static_cast<int>(sides.size());
+  for (int k = first; k < steps; ++k) {
+    const auto outer = [&](int i) { return sides[static_cast<std::size_t>(i)].from; };
+    if (outer(k) - outer(k - kSpan) < kSpan * slope - kWider * width_px) return k;
+  }
+  return steps;
+}
+
 // cut: the frame cuts the ring, so that the line to the shank's end leaves the shank and the corner
-// at which the ring begins rises above that line; a catch rises above the shank's own, too.
+// at which the ring begins rises above that line; a catch rises above the shank's own, too, and
+// before the ring.
 Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   constexpr double kStep = 0.01, kFirst = 0.25;  // of the length
   constexpr int kSteps = 63;                     // rings lie beyond
@@ -78,10 +92,11 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   }
   const double width = std::max(kNarrowest, Median(std::move(widths)));
   const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
+  const int end = cut ? RingBegins(sides, kShankTo, width, slope) : kSteps;
   const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
   Rise highest;
   highest.width_px = width;
-  for (int k = kReach; k + kReach < kSteps; ++k) {
+  for (int k = kReach; k + kReach < end; ++k) {
     const auto at = sides.begin() + k;
     const auto before = std::min_element(at - kReach, at, nearer);
     const auto after = std::min_element(at + 1, at + kReach + 1, nearer);
