@@ -297,6 +297,22 @@ TEST(ColourBorder, LiesBeyondABevelThatPassesForGround) {
   EXPECT_NEAR(border->offset_px, kWidePx, 1.5);
 }
 
+// All that lies near passes for ground, being unlike the blade; the ground is more so.
+TEST(ColourBorder, LiesBeyondABevelThatMirrorsSomeOfTheGround) {
+  constexpr double kWidePx = 22, kMirrorsPx = 14, kBladePx = 20;
+  const Vector3d steel(170, 165, 160), drape(90, 54, 24);
+  const Vector3d dark = 0.1 * steel + 0.08 * drape, mirror = 0.1 * steel + 0.8 * drape;
+  const auto border = BorderBeside(
+      [&](double d) -> Vector3d {
+        return steel + Smooth(d) * (mirror - steel) + Smooth(d - kMirrorsPx) * (dark - mirror) +
+               Smooth(d - kWidePx) * (drape - dark);
+      },
+      kBladePx);
+  ASSERT_TRUE(border);
+  EXPECT_NEAR(MeanOffset(border->path_px), kWidePx, 1);
+  EXPECT_NEAR(border->offset_px, kWidePx, 1.5);
+}
+
 // The edge was followed along the bevel's border first and then along its own.
 TEST(ColourBorder, MayBeFollowedFromAnEdgeThatLeavesIt) {
   const Vector3d steel(170, 165, 160), drape(90, 54, 24);

@@ -73,6 +73,8 @@ double HalfWay(const Profile& profile, const Vector3d& apart, double level, int 
 // among the three.
 struct Transition {
   double of_colour = 0, of_blades_light = 0, of_grounds_light = 0;
+  double way = 0;     // between the two chromas
+  int outermost = 0;  // row that was looked at
 
   // How far off the edge it lies for certain: inwards, the middle one of the three, as a shadow
   // beside a blade spreads them that way; outwards, the nearest. 0 if not for certain.
@@ -102,7 +104,7 @@ bool LiesInShadow(const Profile& profile, double border) {
 std::optional<Transition> TransitionIn(const Profile& profile, double widest_bevel) {
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
   constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
-  constexpr double kStillBlade = 0.4;
+  constexpr double kStillBlade = 0.4, kStillBevel = 0.2;  // which mirrors some of the ground
   constexpr int kSlowest = 5;             // rows; a slower change is that of a mirrored ground
   constexpr int kBeside = 2, kPlain = 4;  // rows from the transition, where light is plain
   const int outer = profile.outer, inner = -profile.inner;
@@ -121,7 +123,7 @@ std::optional<Transition> TransitionIn(const Profile& profile, double widest_bev
   if (last_ground == outer || first_blade <= blade_from || last_ground - first_blade > kSlowest)
     return std::nullopt;
   for (int v = first_blade; v >= inner; --v) {
-    if (share(v) < kStillBlade) return std::nullopt;
+    if (share(v) < (v > 0 ? kStillBevel : kStillBlade)) return std::nullopt;
   }
   const int from = std::min(last_ground + kPlain, outer);
   const int to = std::max(first_blade - kPlain, inner);
@@ -131,7 +133,9 @@ std::optional<Transition> TransitionIn(const Profile& profile, double widest_bev
       profile.Mean(last_ground + kBeside, last_ground + kPlain).dot(grounds);
   const Transition found{0.5 * (last_ground + first_blade + 1),
                          HalfWay(profile, blades, blades_level, from, to),
-                         HalfWay(profile, grounds, grounds_level, from, to)};
+                         HalfWay(profile, grounds, grounds_level, from, to),
+                         way.norm(),
+                         outer};
   const bool may_be_mirrored = found.Certain() < 0 && found.of_colour > -widest_bevel;
   if (may_be_mirrored && !LiesInShadow(profile, found.of_colour)) return std::nullopt;
   return found;
@@ -174,25 +178,38 @@ struct EdgeInColours {
     return profile ? TransitionIn(*profile, kWidestBevel * blade_px / colours.px) : std::nullopt;
   }
 
+  // As wide outside as within, where there is room.
+  [[nodiscard]] std::optional<Transition> TransitionNear(const Stretch& stretch,
+                                                         std::initializer_list<int> reaches,
+                                                         int most_outer) const {
+    for (const int rows : reaches) {
+      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
+    }
+    return std::nullopt;
+  }
+
   // Blades taper: where much of a blade's width is too much, less of it is looked at; where a wide
-  // shadow passes for part of it, nearly all; and where a wide bevel passes for ground, most of the
-  // gap.
+  // shadow passes for part of it, nearly all; and where a wide bevel passes for ground, from which
+  // the blade is then less unlike than from what lies beyond, most of the gap.
   [[nodiscard]] std::optional<Transition> TransitionAcross(const Stretch& stretch,
                                                            double gap_px) const {
     constexpr double kMuch = 0.65, kLess = 0.3, kNearlyAll = 0.95;  // of the blade's width
     constexpr double kOfGap = 0.6;
-    constexpr int kLeast = 6;  // rows
+    constexpr int kLeast = 6;            // rows
+    constexpr double kMoreUnlike = 1.3;  // times
     const int most_outer = static_cast<int>(kOfGap * gap_px / colours.px);
     if (most_outer < kLeast) return std::nullopt;
-    const auto inner = [&](double of_blade) {
+    const auto rows = [&](double of_blade) {
       return std::max(kLeast, static_cast<int>(of_blade * blade_px / colours.px));
     };
-    for (const double of_blade : {kMuch, kLess, kNearlyAll}) {
-      const int rows = inner(of_blade);
-      if (auto found = TransitionOver(stretch, rows, std::min(rows, most_outer))) return found;
-    }
-    const int rows = inner(kMuch);
-    return most_outer > rows ? TransitionOver(stretch, rows, most_outer) : std::nullopt;
+    const int much = rows(kMuch), less = rows(kLess);
+    const auto near = TransitionNear(stretch, {much, less, rows(kNearlyAll)}, most_outer);
+    if (most_outer <= much) return near;
+    auto far = TransitionOver(stretch, much, most_outer);
+    if (!far) far = TransitionOver(stretch, less, most_outer);
+    const bool is_beyond =
+        near && far && far->of_colour > near->outermost && far->way > kMoreUnlike * near->way;
+    return !near || is_beyond ? far : near;
   }
 };
 
