@@ -48,6 +48,11 @@ double CostElsewhere(const PhotoData& photo,
   return std::max(0.0, chi2);
 }
 
+// How far the pose is from the pivot that was observed: chi2 of two coordinates.
+double PullOnPivot(const PhotoData& photo, const Pose& pose) {
+  return (photo.pivot_whitener * Eigen::Vector2d(pose[kPivotX], pose[kPivotY])).squaredNorm();
+}
+
 MirrorVerdict JudgePhoto(FitData data, const SplineSpace& space, Loss loss, JointState start) {
   MirrorVerdict verdict;
   PhotoData& photo = data.photos[0];
@@ -58,14 +63,19 @@ MirrorVerdict JudgePhoto(FitData data, const SplineSpace& space, Loss loss, Join
   const double coefficients = space.size();
   model.mirror = {true};
   verdict.use = true;
-  constexpr int kRounds = 6;
+  constexpr int kRounds = 10;
+  bool differ = false;
   for (int round = 0; round < kRounds; ++round) {
     result = SolveJointly(data, model, result.state);
     const Comparison c = Compare(photo, model, result.state, result.state.poses[0]);
     const double excess = c.excess + CostElsewhere(photo, model, result, cost_without);
+    const double pull = PullOnPivot(photo, result.state.poses[0]);
     verdict.use = c.rms <= kOwnShape;
-    if (!verdict.use || excess <= ChiSquareQuantile(coefficients, kDoubt)) break;
-    const double scale = std::sqrt(excess / coefficients);
+    differ = differ || excess > ChiSquareQuantile(coefficients, kDoubt) ||
+             pull > ChiSquareQuantile(2, kDoubt);
+    const double surplus = std::max(excess / coefficients, pull / 2);
+    if (!verdict.use || !differ || surplus <= 1) break;
+    const double scale = std::sqrt(surplus);
     verdict.sigma_scale *= scale;
     for (double& w : photo.lower.weights) w /= scale;
   }

@@ -18,9 +18,10 @@ struct MirrorVerdict {
 };
 
 // One verdict a photograph, each by itself. The upper edge is never at stake: where the blades
-// differ (parallax, sheen, a blade ground differently) the lower edge's sigmas grow until the
-// difference is as likely as noise; where they differ by more than a hundredth of the blade's
-// length, the lower blade has a shape of its own and only its distal end counts.
+// differ (parallax, sheen, a blade ground differently), or only a pivot elsewhere than it was seen
+// makes them alike, the lower edge's sigmas grow until the rest is what noise makes on average;
+// where they differ by more than a hundredth of the blade's length, the lower blade has a shape of
+// its own and only its distal end counts.
 [[nodiscard]] std::vector<MirrorVerdict> JudgeMirrors(const FitData& data,
                                                       const SplineSpace& space,
                                                       Loss loss);
