@@ -645,6 +645,32 @@ TEST(SceneFinder, RefusesBladesSetAtAnAngle) {
     EXPECT_EQ(ReasonFor(SketchTurnedBy(turn_deg * kDegree)), "out_of_plane") << turn_deg;
 }
 
+// Quality of the sketch's blades where the gap between them is that light, 0 to 100.
+double QualityWithGap(double gap) {
+  constexpr double kGround = 60, kMetal = 30;
+  cv::Mat grey, mask;
+  cv::cvtColor(SketchTurnedBy(0), grey, cv::COLOR_BGR2GRAY);
+  cv::threshold(grey, mask, 160, 255, cv::THRESH_BINARY_INV);
+  cv::Mat light(grey.size(), CV_32FC1, cv::Scalar(kGround));
+  const std::vector<cv::Point> between{{500, 375}, {723, 318}, {723, 432}};  // joint and tips
+  cv::fillConvexPoly(light, between, cv::Scalar(gap));
+  light.setTo(kMetal, mask);
+  Candidate like;
+  like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, light.size())});
+  const Rung seen = SeenIn(mask, like, {}, {});
+  double best = 0;
+  for (const Candidate& c : seen.candidates) best = std::max(best, c.pair.quality);
+  return best;
+}
+
+// A blade that shines passes for the gap between the other one and its own shadow.
+TEST(SeenIn, TakesWhatShinesForNoGap) {
+  EXPECT_GT(QualityWithGap(60), 0.9);
+  EXPECT_GT(QualityWithGap(40), 0.9) << "in the blades' shadows";
+  EXPECT_GT(QualityWithGap(65), 0.9);
+  EXPECT_EQ(QualityWithGap(80), 0);
+}
+
 // A mask that shows blades of 100 px, turned by `turn` against their shanks.
 Candidate MaskWithTurn(double turn_rad) {
   const auto at = [](double direction) {

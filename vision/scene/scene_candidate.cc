@@ -3,11 +3,13 @@
 #include "vision/scene/scene_candidate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
 
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
@@ -108,6 +110,68 @@ void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pa
   pair->doubt = "both blades go on beyond their tips";
 }
 
+template <typename T>
+const T& PlaceAlong(const std::vector<T>& path, double share) {
+  return path[static_cast<std::size_t>(share * static_cast<double>(path.size() - 1))];
+}
+
+// Lightness, 0 to 100, at those of the places that lie in the picture.
+std::vector<double> LightnessAt(const cv::Mat& image, const std::vector<Vector2d>& places) {
+  std::vector<double> lightness;
+  for (const Vector2d& p : places) {
+    const cv::Point at(NearestPixel(p.x()), NearestPixel(p.y()));
+    if (at.x < 0 || at.y < 0 || at.x >= image.cols || at.y >= image.rows) continue;
+    lightness.push_back(image.ptr<float>(at.y)[at.x * image.channels()]);
+  }
+  return lightness;
+}
+
+constexpr std::array kAlong{0.4, 0.5, 0.6, 0.7, 0.8};  // of the blades
+
+std::vector<double> LightnessOfGap(const cv::Mat& image, const BladePair& pair) {
+  std::vector<Vector2d> places;
+  for (const double along : kAlong) {
+    const Vector2d& from = PlaceAlong(pair.first.inner, along);
+    const Vector2d& to = PlaceAlong(pair.second.inner, along);
+    for (const double across : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8})
+      places.emplace_back(from + across * (to - from));
+  }
+  return LightnessAt(image, places);
+}
+
+std::vector<double> LightnessBeside(const cv::Mat& image, const BladeContour& blade) {
+  constexpr double kLeastPx = 4;
+  const Vector2d across =
+      (PlaceAlong(blade.outer, 0.5) - PlaceAlong(blade.inner, 0.5)).normalized();
+  std::vector<Vector2d> places;
+  for (const double along : kAlong) {
+    for (const double way : {0.5, 1.0})
+      places.emplace_back(PlaceAlong(blade.outer, along) +
+                          std::max(kLeastPx, way * blade.width) * across);
+  }
+  return LightnessAt(image, places);
+}
+
+// Between blades lies the ground, if anything darker for their shadows. What shines there more than
+// the ground beside both is a blade, and one of the two its shadow.
+void DoubtShiningGap(Candidate* candidate) {
+  constexpr double kShare = 0.75;                // of the gap is no brighter
+  constexpr double kAsGround = 8, kShines = 14;  // lightness; gaps on marble and wood reach 5
+  const cv::Mat& image = candidate->at->pixels;
+  BladePair& pair = candidate->pair;
+  std::vector<double> gap = LightnessOfGap(image, pair);
+  const std::vector<double> first = LightnessBeside(image, pair.first);
+  const std::vector<double> second = LightnessBeside(image, pair.second);
+  if (gap.empty() || first.empty() || second.empty()) return;
+  std::sort(gap.begin(), gap.end());
+  const double excess = PlaceAlong(gap, kShare) - std::max(Median(first), Median(second));
+  const double grade = std::clamp((kShines - excess) / (kShines - kAsGround), 0.0, 1.0);
+  pair.quality *= grade;
+  if (grade >= pair.worst_grade) return;
+  pair.worst_grade = grade;
+  pair.doubt = "the gap shines like a blade";
+}
+
 bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
   if (hints.tips_direction) {
     const Vector2d towards = 0.5 * (pair.first.tip + pair.second.tip) - pair.pivot;
@@ -163,6 +227,7 @@ Rung SeenIn(const cv::Mat& mask,
       candidate.pair = std::move(pair);
       if (!like.outlined) DoubtSoftEdges(&candidate);
       DoubtEdgesOfHidden(hidden, &candidate);
+      DoubtShiningGap(&candidate);
       candidate.mask = mask;
       quality = candidate.pair.quality;
       seen.candidates.push_back(std::move(candidate));
