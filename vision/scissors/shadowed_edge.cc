@@ -47,6 +47,7 @@ bool RelocateShadowedOne(const BladeView& view, const Pivot& pivot, Blades* blad
   constexpr double kNearest = 1;                        // px
   constexpr double kSeen = 0.65;  // ambiguity; what texture shows is seen less
   const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
+  if (TypicalContrast(outer.edge) <= 0) return false;  // brighter than the ground: no shadow of it
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
   const double most_left = IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft;
