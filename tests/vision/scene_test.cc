@@ -27,6 +27,7 @@
 #include "vision/scene/closed_shape.h"
 #include "vision/scene/flood.h"
 #include "vision/scene/limb_count.h"
+#include "vision/scene/limbs.h"
 #include "vision/scene/region_merging.h"
 #include "vision/scene/scene_candidate.h"
 #include "vision/scene/scene_ladder.h"
@@ -176,6 +177,17 @@ TEST(DescribeShank, SeesTheRingBesideALabelThatLiesOnTheShank) {
     silhouette.filled = mask;
     EXPECT_GT(DescribeShank(silhouette, {}, {}, end, crotch).flare, kRing) << label;
   }
+}
+
+// The shadow of a blade beside another blade is no wider for that.
+TEST(WidthAcross, IsThatOfTheLimbAlongTheLine) {
+  constexpr int kThinPx = 5, kWidePx = 40;
+  cv::Mat mask(400, 400, CV_8UC1, cv::Scalar(0));
+  mask(cv::Rect(98, 20, kThinPx, 360)) = 255;
+  mask(cv::Rect(160, 20, kWidePx, 360)) = 255;
+  EXPECT_NEAR(WidthAcross(mask, {100, 20}, {100, 380}, 0.5), kThinPx, 1.5);
+  EXPECT_NEAR(WidthAcross(mask, {85, 20}, {85, 380}, 0.5), kThinPx, 1.5) << "a bent limb";
+  EXPECT_NEAR(WidthAcross(mask, {180, 20}, {180, 380}, 0.5), kWidePx, 1.5);
 }
 
 TEST(FindBladePairs, TakesWholeBladesBeforeShanksThatRunOutOfThePicture) {

@@ -144,12 +144,15 @@ std::vector<Run> RunsAcross(const cv::Mat& filled,
 }
 
 double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& to, double t) {
+  constexpr double kBent = 0.15;  // of the length: how far a limb's side leaves the line
   const Vector2d along = (to - from).normalized();
   const Vector2d across(-along.y(), along.x());
+  const double length = (to - from).norm();
   double longest = 0;
-  for (const Run& run :
-       RunsAcross(filled, from + t * (to - from), across, kLimbReach * (to - from).norm()))
+  for (const Run& run : RunsAcross(filled, from + t * (to - from), across, kLimbReach * length)) {
+    if (std::max(run.from, -run.to) > kBent * length) continue;  // another limb
     longest = std::max(longest, run.to - run.from + kRunStep);
+  }
   return longest;
 }
 

@@ -88,7 +88,8 @@ struct Run {
 // How far a limb may lie off the line from its root to its end, of its length: RunsAcross's reach.
 inline constexpr double kLimbReach = 0.35;
 
-// Width of the filled silhouette across the line from-to at the share `t` of its length.
+// Width of the limb along the line from-to at the share `t` of its length, not of another one in
+// reach.
 [[nodiscard]] double WidthAcross(const cv::Mat& filled,
                                  const Eigen::Vector2d& from,
                                  const Eigen::Vector2d& to,
