@@ -141,6 +141,32 @@ TEST(RefuseContestedHead, LeavesOneAboutWhichEdgesSeenFromAKnownSideMirrorEachOt
   EXPECT_THROW(RefuseContestedHead(pivot, tilt_known), Refused);
 }
 
+TEST(RefusePivotOffJoint, SpeaksUpWhereThePivotLiesBeyondACrotch) {
+  Scene scene;
+  scene.shank_crotch_px = {100, 100};
+  scene.crotch_px = {160, 180};  // 100 px away
+  const auto is_refused = [&](double share, double sigma_px, const char* source) {
+    Pivot pivot = PivotSeen(0);
+    pivot.source = source;
+    pivot.point_px = scene.shank_crotch_px + share * (scene.crotch_px - scene.shank_crotch_px);
+    pivot.covariance_px2 = sigma_px * sigma_px * Eigen::Matrix2d::Identity();
+    try {
+      RefusePivotOffJoint(scene, pivot);
+    } catch (const Refused& refused) {
+      return refused.reason() == Reason::kAmbiguousPivot;
+    }
+    return false;
+  };
+  for (const char* source : {"screw", "geometry"}) {
+    EXPECT_FALSE(is_refused(0.2, 1, source)) << source;
+    EXPECT_FALSE(is_refused(0.9, 1, source)) << source;
+    EXPECT_TRUE(is_refused(-0.3, 1, source)) << source;
+    EXPECT_TRUE(is_refused(1.3, 1, source)) << source;
+    EXPECT_FALSE(is_refused(1.3, 15, source)) << source << ", but how far is uncertain";
+  }
+  EXPECT_FALSE(is_refused(1.3, 1, "hint"));
+}
+
 TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAboutWhichTheEdgesMirrorEachOther) {
   Scene plain, doubtful, outlined;
   plain.quality = 0.9;

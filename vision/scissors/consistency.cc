@@ -158,6 +158,22 @@ void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale) {
                 "pivot; say where it is: --pivot X,Y; or light the screw");
 }
 
+void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot) {
+  constexpr double kSlack = 0.1;  // of the joint; pivots lie at 0.2 to 0.9 of it
+  constexpr double kSigmas = 2;
+  if (pivot.source == "hint") return;
+  const Eigen::Vector2d joint = scene.crotch_px - scene.shank_crotch_px;
+  const Eigen::Vector2d along = joint / joint.squaredNorm();
+  const double share = along.dot(pivot.point_px - scene.shank_crotch_px);
+  const double slack = kSlack + kSigmas * std::sqrt(along.dot(pivot.covariance_px2 * along));
+  if (share > -slack && share < 1 + slack) return;
+  throw Refused(Reason::kAmbiguousPivot,
+                "pivot: the edges put it beyond where the " +
+                    std::string(share < 0 ? "shanks" : "blades") +
+                    " part, so that one of them is something else's border; use another ground or "
+                    "softer light, or say where it is: --pivot X,Y");
+}
+
 void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot) {
   constexpr double kMost = 0.07;    // of the length; blades photographed at a slant differ by 0.05
   constexpr double kAlike = 0.015;  // of the length, in shape; where both are seen, up to 0.0125

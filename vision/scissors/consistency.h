@@ -59,6 +59,10 @@ void RefuseUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, const Blade
 // unless the edges, seen from a known side, mirror each other about it.
 void RefuseContestedHead(const Pivot& pivot, const ScaleResult& scale);
 
+// Throws Refused{kAmbiguousPivot} where a pivot that is not given lies off the joint, by more than
+// it is uncertain: blades part on one side of it, shanks on the other.
+void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot);
+
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms
 // it: the edges mirror each other about it as far as the view is known, in shape as well, and a
 // second look needs more than a faint head. Where none is seen the scene must be plainer: else

@@ -89,6 +89,7 @@ void DropFalseHead(const BladeView& view, const Blades& blades, Pivot* pivot, St
 // What the parts say of each other: refusals, what is cut off, and doubts.
 void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* blades) {
   RefuseContestedHead(pivot, view.scale());
+  RefusePivotOffJoint(view.scene(), pivot);
   RefuseUnlikeEdges(pivot, view.scale(), *blades);
   RefuseUnconfirmedScene(view.scene(), view.scale(), pivot);
   CutWhereEdgesPart(view, pivot, blades);
