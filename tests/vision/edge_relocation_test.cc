@@ -283,6 +283,17 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAShadowWithoutMarkers) {
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
+// The dark line within a blade that is brighter than the ground is where its bevel begins.
+TEST(RelocateUnlikeEdges, TakesNothingThatIsBrighterThanTheGroundForItsShadow) {
+  constexpr double kHardMm = 0.2;
+  Measured measured{SceneWithShadow(54 * kDegree, 270 * kDegree, kHardMm)};
+  measured.scale.sheet.reset();
+  for (LocatedEdgePoint& point : measured.blades.lower.edge.points)
+    point.contrast = -std::abs(point.contrast);
+  Relocate(&measured);
+  EXPECT_EQ(measured.blades.lower.moved, "");
+}
+
 // Beside the blade at the truth's upper edge, which is measured as the lower one.
 Measured WithMirroringBevelBelow() {
   const SceneSpec spec = SceneWithMarkers();
