@@ -34,8 +34,8 @@ struct NormalEquations {
            int first,
            int first_place) {
     const Eigen::Index sums = columns.rows(), basis = columns.cols() - kEdgeSize;
-    const Eigen::MatrixXd by_sums = columns.transpose() * products.topRows(sums);
-    const Eigen::MatrixXd all = by_sums.leftCols(sums) * columns;
+    const Eigen::MatrixXd by_sums = columns.transpose().lazyProduct(products.topRows(sums));
+    const Eigen::MatrixXd all = by_sums.leftCols(sums).lazyProduct(columns);
     matrix.block(first, first, basis, basis) += all.topLeftCorner(basis, basis);
     matrix.block(first_place, first, kEdgeSize, basis) += all.bottomLeftCorner(kEdgeSize, basis);
     matrix.block(first, first_place, basis, kEdgeSize) += all.topRightCorner(basis, kEdgeSize);
