@@ -546,35 +546,41 @@ struct DrawnShanks {
   }
 };
 
+// Drawn like DrawnShanks, with rings that the frame cuts.
+template <typename Draw>
+bool CutShanksCarryCatches(const Draw& draw) {
+  constexpr int kFrame = 391;
+  DrawnShanks shanks(draw);
+  shanks.pair.shanks_run_out = true;
+  shanks.mask = shanks.mask.rowRange(0, kFrame);
+  return shanks.CarryCatches();
+}
+
 // The ends of the shanks are then where the frame cuts the rings' outer rims, and the corners at
 // which the shanks meet the rings rise above the lines to there.
 TEST(ShanksCarryCatches, TakesNoRingsThatTheFrameCutsForCatches) {
   for (const bool catches : {false, true}) {
-    DrawnShanks shanks([&](int, cv::Mat& mask, const auto& at) {
-      cv::line(mask, at(-60, 40), at(0, 180), 255, 20);
-      cv::line(mask, at(0, 180), at(108, 385), 255, 12);
-      cv::circle(mask, at(173, 405), 65, 255, 6);
-      if (catches) cv::line(mask, at(70, 310), at(55, 320), 255, 14);
-      return at(240, 390);
-    });
-    shanks.pair.shanks_run_out = true;
-    shanks.mask = shanks.mask.rowRange(0, 391);
-    EXPECT_EQ(shanks.CarryCatches(), catches);
+    EXPECT_EQ(CutShanksCarryCatches([&](int, cv::Mat& mask, const auto& at) {
+                cv::line(mask, at(-60, 40), at(0, 180), 255, 20);
+                cv::line(mask, at(0, 180), at(108, 385), 255, 12);
+                cv::circle(mask, at(173, 405), 65, 255, 6);
+                if (catches) cv::line(mask, at(70, 310), at(55, 320), 255, 14);
+                return at(240, 390);
+              }),
+              catches);
   }
 }
 
 // Where the frame cuts them in the middle, they begin well before the ends of the shanks.
 TEST(ShanksCarryCatches, TakesNoHalfRingsForCatches) {
   for (const bool catches : {false, true}) {
-    DrawnShanks shanks([&](int, cv::Mat& mask, const auto& at) {
-      cv::line(mask, at(0, 180), at(96, 340), 255, 18);
-      cv::circle(mask, at(150, 390), 62, 255, 16);
-      if (catches) cv::line(mask, at(58, 290), at(42, 300), 255, 16);
-      return at(200, 390);
-    });
-    shanks.pair.shanks_run_out = true;
-    shanks.mask = shanks.mask.rowRange(0, 391);
-    EXPECT_EQ(shanks.CarryCatches(), catches);
+    EXPECT_EQ(CutShanksCarryCatches([&](int, cv::Mat& mask, const auto& at) {
+                cv::line(mask, at(0, 180), at(96, 340), 255, 18);
+                cv::circle(mask, at(150, 390), 62, 255, 16);
+                if (catches) cv::line(mask, at(58, 290), at(42, 300), 255, 16);
+                return at(200, 390);
+              }),
+              catches);
   }
 }
 
