@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kOwnShape =
     0.01;  // rms difference of the blades, as a part of their length: another shape
+constexpr double kOfPivot = 2;    // coordinates
 constexpr double kDoubt = 0.999;  // a difference that noise makes once in a thousand is real
 
 // chi2 of a lower edge against a curve of its own with the same knots.
@@ -48,7 +49,7 @@ double CostElsewhere(const PhotoData& photo,
   return std::max(0.0, chi2);
 }
 
-// How far the pose is from the pivot that was observed: chi2 of two coordinates.
+// How far the pose is from the pivot that was observed: chi2 of its coordinates.
 double PullOnPivot(const PhotoData& photo, const Pose& pose) {
   return (photo.pivot_whitener * Eigen::Vector2d(pose[kPivotX], pose[kPivotY])).squaredNorm();
 }
@@ -72,8 +73,8 @@ MirrorVerdict JudgePhoto(FitData data, const SplineSpace& space, Loss loss, Join
     const double pull = PullOnPivot(photo, result.state.poses[0]);
     verdict.use = c.rms <= kOwnShape;
     differ = differ || excess > ChiSquareQuantile(coefficients, kDoubt) ||
-             pull > ChiSquareQuantile(2, kDoubt);
-    const double surplus = std::max(excess / coefficients, pull / 2);
+             pull > ChiSquareQuantile(kOfPivot, kDoubt);
+    const double surplus = std::max(excess / coefficients, pull / kOfPivot);
     if (!verdict.use || !differ || surplus <= 1) break;
     const double scale = std::sqrt(surplus);
     verdict.sigma_scale *= scale;

@@ -89,17 +89,22 @@ TEST(PartedByPivotPx, IsTwiceWhatThePivotMayLieAsideOfTheLineBetweenTheBlades) {
   EXPECT_NEAR(PartedByPivotPx(pivot, blades), 2 * kSigmaPx, 1e-9);
 }
 
+template <typename Check>
+bool Refuses(Reason reason, const Check& check) {
+  try {
+    check();
+  } catch (const Refused& refused) {
+    return refused.reason() == reason;
+  }
+  return false;
+}
+
 TEST(RefuseClosed, SpeaksUpWhereTheEndsLieOnEachOtherOrTheWrongWayRound) {
   const auto is_closed = [](double upper_y, double lower_y) {
     Blades blades = BladesWithRivals(0, 0);
     blades.upper.end.point_px.y() = upper_y;
     blades.lower.end.point_px.y() = lower_y;
-    try {
-      RefuseClosed(PivotSeen(0), blades);
-    } catch (const Refused& refused) {
-      return refused.reason() == Reason::kClosed;
-    }
-    return false;
+    return Refuses(Reason::kClosed, [&] { RefuseClosed(PivotSeen(0), blades); });
   };
   constexpr double kHalf5DegreesPx = 0.0436 * kLength;
   EXPECT_FALSE(is_closed(-kHalf5DegreesPx, kHalf5DegreesPx));
@@ -150,12 +155,7 @@ TEST(RefusePivotOffJoint, SpeaksUpWhereThePivotLiesBeyondACrotch) {
     pivot.source = source;
     pivot.point_px = scene.shank_crotch_px + share * (scene.crotch_px - scene.shank_crotch_px);
     pivot.covariance_px2 = sigma_px * sigma_px * Eigen::Matrix2d::Identity();
-    try {
-      RefusePivotOffJoint(scene, pivot);
-    } catch (const Refused& refused) {
-      return refused.reason() == Reason::kAmbiguousPivot;
-    }
-    return false;
+    return Refuses(Reason::kAmbiguousPivot, [&] { RefusePivotOffJoint(scene, pivot); });
   };
   for (const char* source : {"screw", "geometry"}) {
     EXPECT_FALSE(is_refused(0.2, 1, source)) << source;

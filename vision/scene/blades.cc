@@ -22,24 +22,13 @@ struct Crossing {
   const Inlet* back;
 };
 
-// Falls from 1 at `good` to 0 at `bad`.
-double Grade(double value, double good, double bad) {
-  return std::clamp((bad - value) / (bad - good), 0.0, 1.0);
-}
-
 struct GradePart {
   double grade;
   const char* doubt;
 };
 
 void Apply(std::initializer_list<GradePart> parts, BladePair* pair) {
-  for (const GradePart& part : parts) {
-    pair->quality *= part.grade;
-    if (part.grade < pair->worst_grade) {
-      pair->worst_grade = part.grade;
-      pair->doubt = part.doubt;
-    }
-  }
+  for (const GradePart& part : parts) ApplyGrade(part.grade, part.doubt, pair);
 }
 
 // How much the two limbs beside the gap look like blades.
@@ -286,6 +275,17 @@ void KeepDeepest(std::size_t most, std::vector<Inlet>* inlets) {
 }
 
 }  // namespace
+
+double Grade(double value, double good, double bad) {
+  return std::clamp((bad - value) / (bad - good), 0.0, 1.0);
+}
+
+void ApplyGrade(double grade, const char* doubt, BladePair* pair) {
+  pair->quality *= grade;
+  if (grade >= pair->worst_grade) return;
+  pair->worst_grade = grade;
+  pair->doubt = doubt;
+}
 
 std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Mat& hidden) {
   std::vector<Inlet> inlets = FindInlets(silhouette.contour);

@@ -28,6 +28,12 @@ struct BladePair {
   std::string doubt;       // what lowered the quality most
 };
 
+// Falls from 1 at `good` to 0 at `bad`.
+[[nodiscard]] double Grade(double value, double good, double bad);
+
+// Lowers a pair's quality to so much of it, and says why if nothing lowered it more.
+void ApplyGrade(double grade, const char* doubt, BladePair* pair);
+
 // All gaps of the silhouette that might lie between two blades, the likeliest first; empty if none
 // does. `hidden` (CV_8UC1, may be empty) is non-zero where something covers what goes on: a shank
 // that ends there is cut off, not short.

@@ -82,11 +82,9 @@ void JudgeEdges(const BladePair& pair, Candidate* candidate) {
 }
 
 void DoubtSoftEdges(Candidate* candidate) {
-  const double grade = std::clamp((candidate->sharpness - kSoft) / (kSharp - kSoft), 0.0, 1.0);
-  candidate->pair.quality *= grade;
-  if (grade >= candidate->pair.worst_grade) return;
-  candidate->pair.worst_grade = grade;
-  candidate->pair.doubt = "an edge is soft like a shadow's";
+  ApplyGrade(Grade(-candidate->sharpness, -kSharp, -kSoft),
+             "an edge is soft like a shadow's",
+             &candidate->pair);
 }
 
 // An edge along what is hidden was drawn by that, as the gaps between the markers of a card are.
@@ -165,11 +163,7 @@ void DoubtShiningGap(Candidate* candidate) {
   if (gap.empty() || first.empty() || second.empty()) return;
   std::sort(gap.begin(), gap.end());
   const double excess = PlaceAlong(gap, kShare) - std::max(Median(first), Median(second));
-  const double grade = std::clamp((kShines - excess) / (kShines - kAsGround), 0.0, 1.0);
-  pair.quality *= grade;
-  if (grade >= pair.worst_grade) return;
-  pair.worst_grade = grade;
-  pair.doubt = "the gap shines like a blade";
+  ApplyGrade(Grade(excess, kAsGround, kShines), "the gap shines like a blade", &pair);
 }
 
 bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {

@@ -47,9 +47,9 @@ bool RelocateShadowedOne(const BladeView& view, const Pivot& pivot, Blades* blad
   constexpr double kNearest = 1;                        // px
   constexpr double kSeen = 0.65;  // ambiguity; what texture shows is seen less
   const auto [outer, other] = OneOf(blades, !LiesInwards(blades->upper, pivot));
-  if (TypicalContrast(outer.edge) <= 0) return false;  // brighter than the ground: no shadow of it
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
+  if (TypicalContrast(outer.edge) <= 0) return false;  // brighter than the ground: no shadow of it
   const double most_left = IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft;
   for (const Shadow shadow : ShadowsWithin(view, outer)) {
     const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest, shadow);
