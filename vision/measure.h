@@ -31,10 +31,10 @@ struct MeasureOptions {
 struct PhotoMeasurement {
   std::string file, sha256;
   int width = 0, height = 0;
-  Eigen::Vector2d pivot_px;
+  Eigen::Vector2d pivot_px{0, 0};
   double pivot_sigma_px = std::numeric_limits<double>::quiet_NaN();
   std::string pivot_source;                   // "screw", "geometry", "hint"
-  Eigen::Vector2d axis_px;                    // unit direction of +x in the image, at the pivot
+  Eigen::Vector2d axis_px{0, 0};              // unit direction of +x in the image, at the pivot
   double theta_rad = 0, theta_sigma_rad = 0;  // the sigma of a given one is NaN: nobody said
   std::string theta_source;                   // "distal-ends", "given"
   double seen_theta_rad = 0, seen_theta_sigma_rad = 0;  // by the distal ends, given or not

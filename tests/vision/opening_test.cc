@@ -37,6 +37,7 @@ struct Spoilt {
 Opening OpeningOf(const Spoilt& spoilt) {
   Pivot pivot;
   pivot.source = "screw";
+  pivot.point_px = {0, 0};
   pivot.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
   pivot.asymmetry = spoilt.asymmetry;
   Blades blades{StraightBlade(-60), StraightBlade(60)};

@@ -17,9 +17,9 @@ struct Overlay {
   std::vector<Eigen::Vector2d> fitted_edge_px;  // the fitted curve beside each of them
   std::vector<Eigen::Vector2d> lower_edge_px;   // located; may be empty
   Eigen::Vector2d upper_end_px, lower_end_px;
-  Eigen::Vector2d pivot_px;
+  Eigen::Vector2d pivot_px{0, 0};
   double pivot_sigma_px = 0;
-  Eigen::Vector2d axis_px;  // unit image direction of +x
+  Eigen::Vector2d axis_px{0, 0};  // unit image direction of +x
   double theta_rad = 0, theta_sigma_rad = 0;
   double unit_per_px = 1;   // for the scale bar
   std::string unit = "mm";  // "px" where no scale is known

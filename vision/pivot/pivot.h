@@ -18,7 +18,7 @@ namespace bladecurve {
 
 // The point about which the blades turn; stored pixels.
 struct Pivot {
-  Eigen::Vector2d point_px;
+  Eigen::Vector2d point_px{0, 0};
   Eigen::Matrix2d covariance_px2;
   std::string source;                     // "screw", "geometry", "hint"
   double asymmetry = 0;                   // see EdgeAsymmetry; 0 if bent

@@ -14,7 +14,7 @@ namespace bladecurve {
 // rim. Independent of the rim, where a chamfer that is bright on one side and dark on the other, or
 // a recess, may lead a fit astray.
 struct ScrewSlot {
-  Eigen::Vector2d center_px;
+  Eigen::Vector2d center_px{0, 0};
   Eigen::Matrix2d covariance_px2;  // much larger along the slot than across it
   bool ends_seen = false;          // both, at the rim
 };
@@ -25,7 +25,7 @@ inline constexpr double kSlotOffCentre = 0.025, kEndsOffCentre = 0.05;
 
 // The head of the screw or rivet about which the blades turn, as an ellipse.
 struct Screw {
-  Eigen::Vector2d center_px;
+  Eigen::Vector2d center_px{0, 0};
   Eigen::Matrix2d covariance_px2;  // of the centre of what is seen of the rim
   double semi_major_px = 0, semi_minor_px = 0;
   double angle_rad = 0;      // of the major axis, from +x towards +y (down)
@@ -54,7 +54,7 @@ inline constexpr double kBeyondDoubt = 15, kFaintHead = 10;
 }
 
 struct ScrewSearch {
-  Eigen::Vector2d guess_px;     // where geometry puts the pivot
+  Eigen::Vector2d guess_px{0, 0};  // where geometry puts the pivot
   double radius_px = 0;         // how far from there the centre may lie; time grows as its square
   double min_semi_axis_px = 3;  // size of the head, from the width of the shank
   double max_semi_axis_px = 0;

@@ -16,11 +16,11 @@ namespace bladecurve {
 struct BladePair {
   BladeContour first,
       second;  // clockwise from the crotch as the mask is seen: `first` comes before it
-  Eigen::Vector2d crotch;
+  Eigen::Vector2d crotch{0, 0};
   std::optional<Eigen::Vector2d> shank_crotch;  // the concavity opposite, between the shanks
   Eigen::Vector2d shank_first, shank_second;    // the shanks' ends
   bool shanks_run_out = false;                  // both, of the picture
-  Eigen::Vector2d pivot;                        // centre of the overlap: where the members cross
+  Eigen::Vector2d pivot{0, 0};                  // centre of the overlap: where the members cross
   double pivot_sigma = 0;
   double shank_width = 0;  // of the members near the pivot
   double quality = 0;      // 0 to 1: how much this looks like a pair of blades

@@ -17,7 +17,7 @@ struct BladeContour {
   std::vector<Eigen::Vector2d> outer;  // from the tip back to the concavity beside the pivot
   // The side of the blade's own shank on which the cutting edge lies, from the joint on.
   std::vector<Eigen::Vector2d> shank;
-  Eigen::Vector2d tip;
+  Eigen::Vector2d tip{0, 0};
   double length = 0;  // crotch to tip
   double width = 0;   // half way along
   double taper = 0;   // width near the tip over width half way; a ring or a cut-off shank has > 1

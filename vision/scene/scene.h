@@ -23,16 +23,16 @@ struct SceneBlade {
   // The side of the blade's own shank that faces as the cutting edge does, from the joint on; may
   // be empty.
   std::vector<Eigen::Vector2d> shank_px;
-  Eigen::Vector2d tip_px;
+  Eigen::Vector2d tip_px{0, 0};
   double width_px = 0;  // half way along
 };
 
 // The scissors in the picture.
 struct Scene {
   SceneBlade left, right;  // seen from the pivot towards the tips, in the stored picture
-  Eigen::Vector2d crotch_px;
-  Eigen::Vector2d shank_crotch_px;  // the concavity behind the pivot, between the shanks
-  Eigen::Vector2d pivot_px;         // where the members cross
+  Eigen::Vector2d crotch_px{0, 0};
+  Eigen::Vector2d shank_crotch_px{0, 0};  // the concavity behind the pivot, between the shanks
+  Eigen::Vector2d pivot_px{0, 0};         // where the members cross
   double pivot_sigma_px = 0;
   double shank_width_px = 0;  // of the members where they cross, across each
   double path_sigma_px = 0;   // how far off the paths may be

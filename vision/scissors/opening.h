@@ -17,7 +17,7 @@ namespace bladecurve {
 struct Opening {
   double theta_rad = 0, sigma_rad = 0;
   double view_sigma_rad = 0;  // more of it: what a slant of the camera that nobody knows does
-  Eigen::Vector2d x_in_plane;
+  Eigen::Vector2d x_in_plane{0, 0};
 };
 
 // unknown_view: the camera, where no markers say how it stands; of a scan none.

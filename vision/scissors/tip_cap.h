@@ -12,7 +12,7 @@ namespace bladecurve {
 
 // The rounded end of a blade: an arc that leaves the cutting edge tangentially.
 struct TipCap {
-  Eigen::Vector2d end_px;  // where the arc leaves the edge: the distal end
+  Eigen::Vector2d end_px{0, 0};  // where the arc leaves the edge: the distal end
   double radius_px = 0;
   double scatter_px = 0;   // of the outline seen about the arc, robust
   int seen = 0;            // lines along which the outline was seen
@@ -23,11 +23,11 @@ struct TipCap {
 };
 
 struct TipSearch {
-  Eigen::Vector2d tip_px;     // roughly the furthest point of the blade
-  double reach_px = 10;       // how far from there the outline may lie
-  double blade_width_px = 0;  // half way along the blade
-  bool blade_on_left = true;  // of the edge, as in EdgeGuess
-  double blur_px = 0.9;       // of the edge: beyond a narrow shadow beside it the ground is bright
+  Eigen::Vector2d tip_px{0, 0};  // roughly the furthest point of the blade
+  double reach_px = 10;          // how far from there the outline may lie
+  double blade_width_px = 0;     // half way along the blade
+  bool blade_on_left = true;     // of the edge, as in EdgeGuess
+  double blur_px = 0.9;  // of the edge: beyond a narrow shadow beside it the ground is bright
 };
 
 // Looks along lines parallel to the cutting edge, within the blade, for where the blade ends, and
