@@ -100,6 +100,28 @@ TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   }
 }
 
+// A tip that fades into its ground ends early; nothing makes one end late as clearly.
+TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsMoreClearly) {
+  constexpr double kFaded = kLength - 35;  // px
+  for (const double evidence : {100.0, 1000.0}) {
+    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kLength, 1, true)};
+    blades.upper.end.evidence = 100;
+    blades.lower.end.evidence = evidence;
+    AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+    EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+    EXPECT_NEAR(LengthOf(blades.upper), evidence > 100 ? kLength : kFaded, kExact);
+    EXPECT_TRUE(blades.ends_contradict);
+  }
+}
+
+TEST(AgreeOnEnds, TakesTheLongerOfTwoBladesThatBothFade) {
+  Blades blades{BladeOnRay(true, kLength, 5, false), BladeOnRay(false, kLength - 25, 5, false)};
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_GE(blades.lower.end.along_sigma_px, 5);
+}
+
 // Shadows of both tips, equally long, and the tips themselves.
 TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
   constexpr double kShadow = 28;  // px

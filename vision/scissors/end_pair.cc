@@ -136,11 +136,24 @@ void DoubtBoth(const Comparison& both, Blades* blades) {
 // Whether an arc is seen across which the picture steps the other way than across the edge.
 bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
 
+constexpr double kMoreClearly = 1.5;  // times the evidence
+
+// Whether the shorter blade's tip fades into its ground. Nothing else makes a blade that much
+// shorter than the other one: shadows of tips lie nearer, and are seen no better.
+bool ShorterOneFades(const Comparison& both, const Blades& blades) {
+  constexpr double kFaded = 0.06;  // of the length
+  if (std::abs(both.gap) < kFaded * both.upper.length) return false;
+  const bool upper_shorter = both.gap < 0;
+  const DistalEnd& shorter = upper_shorter ? blades.upper.end : blades.lower.end;
+  const DistalEnd& longer = upper_shorter ? blades.lower.end : blades.upper.end;
+  if (longer.arc_seen != shorter.arc_seen) return false;
+  return !longer.arc_seen || longer.evidence > kMoreClearly * shorter.evidence;
+}
+
 // Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
 // of tips and borders of bevels end elsewhere on the two blades, or are fainter. One arc beside an
 // end without any, where the likely one is a shadow's.
 void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
-  constexpr double kMoreClearly = 1.5;  // times the evidence of the likely ends
   const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
     const Comparison both = Compare(scale, pivot, *blades, upper, lower);
     const bool alike = both.Outwards() && !both.Contradicts();
@@ -173,10 +186,13 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
   if (!scale.sheet) return;
-  if (!blades->ends_contradict) {
+  const bool upper_seen = blades->upper.end.arc_seen, lower_seen = blades->lower.end.arc_seen;
+  if (ShorterOneFades(both, *blades)) {
+    Follow(both, both.gap < 0, blades);
+  } else if (!blades->ends_contradict) {
     Fuse(both, blades);
-  } else if (blades->upper.end.arc_seen != blades->lower.end.arc_seen) {
-    Follow(both, blades->lower.end.arc_seen, blades);
+  } else if (upper_seen != lower_seen) {
+    Follow(both, lower_seen, blades);
   } else {
     DoubtBoth(both, blades);
   }
