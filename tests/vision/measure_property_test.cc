@@ -12,6 +12,7 @@
 #include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct Change {
   std::string name;
   std::function<cv::Mat(const cv::Mat&)> apply;
   std::function<Vector2d(const Vector2d&, const cv::Size&)> moved;
+  double factor = 1;  // of the size
 };
 
 Vector2d Stays(const Vector2d& p, const cv::Size& /*size*/) { return p; }
@@ -111,7 +113,8 @@ Change Scaled(double factor) {
           },
           [factor](const Vector2d& p, const cv::Size& /*size*/) -> Vector2d {
             return (factor * (p.array() + 0.5) - 0.5).matrix();
-          }};
+          },
+          factor};
 }
 
 // In light: one stop is a factor of two before the tone curve.
@@ -151,6 +154,27 @@ Change Noisy(double grey) {
           Stays};
 }
 
+// The part of the picture that a line across it leaves, so many blades' lengths behind the pivot.
+std::optional<Change> CutBehind(const PhotoMeasurement& seen,
+                                double lengths,
+                                const cv::Size& size) {
+  constexpr int kLeastLeftOut = 20;  // px
+  const int axis = std::abs(seen.axis_px.x()) > std::abs(seen.axis_px.y()) ? 0 : 1;
+  const double length = (seen.upper_end_px - seen.pivot_px).norm();
+  const int extent = axis == 0 ? size.width : size.height;
+  const int cut = static_cast<int>(seen.pivot_px[axis] - lengths * length * seen.axis_px[axis]);
+  if (cut < kLeastLeftOut || cut > extent - kLeastLeftOut) return std::nullopt;
+  const bool keeps_begin = seen.axis_px[axis] < 0;
+  cv::Rect kept(cv::Point(), size);
+  (axis == 0 ? kept.width : kept.height) = keeps_begin ? cut : extent - cut;
+  if (!keeps_begin) (axis == 0 ? kept.x : kept.y) = cut;
+  return Change{"cut " + std::to_string(lengths).substr(0, 3) + " lengths behind the pivot",
+                [kept](const cv::Mat& picture) { return picture(kept).clone(); },
+                [kept](const Vector2d& p, const cv::Size& /*size*/) -> Vector2d {
+                  return p - Vector2d(kept.x, kept.y);
+                }};
+}
+
 PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHints& hints = {}) {
   const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
@@ -158,6 +182,14 @@ PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHi
   options.scale.mm_per_px = mm_per_px;
   options.hints = hints;
   return MeasurePhoto(file, options);
+}
+
+std::optional<PhotoMeasurement> MeasureUnlessRefused(const cv::Mat& picture) {
+  try {
+    return Measure(picture, 1);
+  } catch (const Refused&) {
+    return std::nullopt;
+  }
 }
 
 // Three standard deviations of the difference of two measurements, and what resampling may shift.
@@ -287,35 +319,67 @@ cv::Mat SmallPicture(const fs::path& file) {
   return small;
 }
 
-// Where the photograph was measured without doubt about its blades and pivot, every exact change of
-// it must either be refused or agree: a photograph at the edge of what can be seen may tip over,
-// but not into another answer.
-TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
-  const std::vector<fs::path> photographs = RealPhotographs();
-  if (photographs.empty()) GTEST_SKIP() << "no photographs beside the project";
-  int measured = 0, again = 0, tried = 0;
-  for (const fs::path& file : photographs) {
+// Of the real photographs, what the picture once changed says of each that was measured before.
+struct Agreement {
+  int tried = 0, again = 0;
+};
+
+// Where the photograph was measured, a changed one must either be refused or agree: a photograph at
+// the edge of what can be seen may tip over, but not into another answer.
+Agreement MeasureChanged(
+    const std::function<std::vector<Change>(const PhotoMeasurement&, const cv::Size&)>& changes) {
+  Agreement agreement;
+  for (const fs::path& file : RealPhotographs()) {
     SCOPED_TRACE(file.filename());
     const cv::Mat picture = SmallPicture(file);
-    try {
-      const PhotoMeasurement before = Measure(picture, 1);
-      ++measured;
-      for (const Change& change : {QuarterTurn(), HalfTurn(), Mirrored()}) {
-        SCOPED_TRACE(change.name);
-        ++tried;
-        try {
-          ExpectSame(before, Measure(change.apply(picture), 1), change, picture.size(), 1);
-          ++again;
-        } catch (const Refused&) {
-          continue;
-        }
-      }
-    } catch (const Refused&) {
-      continue;
+    const std::optional<PhotoMeasurement> before = MeasureUnlessRefused(picture);
+    if (!before) continue;
+    for (const Change& change : changes(*before, picture.size())) {
+      SCOPED_TRACE(change.name);
+      ++agreement.tried;
+      const auto after = MeasureUnlessRefused(change.apply(picture));
+      if (!after) continue;
+      ExpectSame(*before, *after, change, picture.size(), change.factor);
+      ++agreement.again;
     }
   }
-  EXPECT_GT(measured, static_cast<int>(photographs.size()) / 2);
-  EXPECT_GE(again, tried * 9 / 10);
+  return agreement;
+}
+
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
+  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+  const Agreement agreement = MeasureChanged([](auto&, auto&) {
+    return std::vector{QuarterTurn(), HalfTurn(), Mirrored()};
+  });
+  EXPECT_GE(agreement.again, agreement.tried * 9 / 10);
+}
+
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
+  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+  const Agreement agreement = MeasureChanged([](auto&, auto&) {
+    return std::vector{Scaled(0.6), Scaled(1.4), Scaled(2)};
+  });
+  printf("%d of %d\n", agreement.again, agreement.tried);
+}
+
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
+  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+  const Agreement agreement = MeasureChanged([](auto&, auto&) {
+    return std::vector{Exposed(-1), Exposed(1), Noisy(4)};
+  });
+  printf("%d of %d\n", agreement.again, agreement.tried);
+}
+
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
+  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+  const Agreement agreement =
+      MeasureChanged([](const PhotoMeasurement& before, const cv::Size& size) {
+        std::vector<Change> cuts;
+        for (const double lengths : {0.4, 0.8, 1.2, 1.6})
+          if (const auto cut = CutBehind(before, lengths, size)) cuts.push_back(*cut);
+        return cuts;
+      });
+  printf("%d of %d\n", agreement.again, agreement.tried);
 }
 
 }  // namespace
