@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -175,6 +176,9 @@ std::optional<Change> CutBehind(const PhotoMeasurement& seen,
                 }};
 }
 
+// From close behind the joint to where the rings begin.
+constexpr std::array kCutsBehind{0.4, 0.8, 1.2, 1.6};
+
 PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHints& hints = {}) {
   const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
@@ -286,15 +290,11 @@ TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderAnotherExposure) {
 TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderMoreNoise) { ExpectUnmoved(Noisy(5)); }
 
 TEST_F(RenderedPhotograph, KeepsItsMeasuresWithoutTheHandles) {
-  const int cut = static_cast<int>(before_->pivot_px.x() - 0.4 * picture_->cols / 2);
-  ASSERT_GT(cut, 0);
-  ExpectUnmoved({"handles cropped",
-                 [cut](const cv::Mat& picture) {
-                   return picture(cv::Rect(cut, 0, picture.cols - cut, picture.rows)).clone();
-                 },
-                 [cut](const Vector2d& p, const cv::Size& /*size*/) -> Vector2d {
-                   return p - Vector2d(cut, 0);
-                 }});
+  for (const double lengths : kCutsBehind) {
+    const std::optional<Change> cut = CutBehind(*before_, lengths, picture_->size());
+    ASSERT_TRUE(cut) << lengths;
+    ExpectUnmoved(*cut);
+  }
 }
 
 // The photographs are somebody else's and lie beside the project.
@@ -319,16 +319,14 @@ cv::Mat SmallPicture(const fs::path& file) {
   return small;
 }
 
-// Of the real photographs, what the picture once changed says of each that was measured before.
-struct Agreement {
-  int tried = 0, again = 0;
-};
+using ChangesOf =
+    std::function<std::vector<Change>(const PhotoMeasurement& before, const cv::Size& size)>;
 
-// Where the photograph was measured, a changed one must either be refused or agree: a photograph at
-// the edge of what can be seen may tip over, but not into another answer.
-Agreement MeasureChanged(
-    const std::function<std::vector<Change>(const PhotoMeasurement&, const cv::Size&)>& changes) {
-  Agreement agreement;
+// Every changed photograph, of those that are measured, must either be refused or agree: one at the
+// edge of what can be seen may tip over, but not into another answer. Of all so large a share must
+// agree.
+void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
+  int tried = 0, again = 0;
   for (const fs::path& file : RealPhotographs()) {
     SCOPED_TRACE(file.filename());
     const cv::Mat picture = SmallPicture(file);
@@ -336,50 +334,58 @@ Agreement MeasureChanged(
     if (!before) continue;
     for (const Change& change : changes(*before, picture.size())) {
       SCOPED_TRACE(change.name);
-      ++agreement.tried;
+      ++tried;
       const auto after = MeasureUnlessRefused(change.apply(picture));
       if (!after) continue;
       ExpectSame(*before, *after, change, picture.size(), change.factor);
-      ++agreement.again;
+      ++again;
     }
   }
-  return agreement;
+  EXPECT_GE(tried, 20);
+  EXPECT_GE(again, least_share * tried) << again << " of " << tried;
 }
 
-TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
-  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
-  const Agreement agreement = MeasureChanged([](auto&, auto&) {
-    return std::vector{QuarterTurn(), HalfTurn(), Mirrored()};
-  });
-  EXPECT_GE(agreement.again, agreement.tried * 9 / 10);
+class RealPhotograph : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+  }
+};
+
+TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
+  ExpectAlikeOrRefused(
+      [](auto&, auto&) {
+        return std::vector{QuarterTurn(), HalfTurn(), Mirrored()};
+      },
+      0.9);
 }
 
-TEST(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
-  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
-  const Agreement agreement = MeasureChanged([](auto&, auto&) {
-    return std::vector{Scaled(0.6), Scaled(1.4), Scaled(2)};
-  });
-  printf("%d of %d\n", agreement.again, agreement.tried);
+TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
+  ExpectAlikeOrRefused(
+      [](auto&, auto&) {
+        return std::vector{Scaled(0.7), Scaled(1.4), Scaled(2)};
+      },
+      0.9);
 }
 
-TEST(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
-  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
-  const Agreement agreement = MeasureChanged([](auto&, auto&) {
-    return std::vector{Exposed(-1), Exposed(1), Noisy(4)};
-  });
-  printf("%d of %d\n", agreement.again, agreement.tried);
+TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
+  // A whole stop more clips white grounds.
+  ExpectAlikeOrRefused(
+      [](auto&, auto&) {
+        return std::vector{Exposed(-1), Exposed(1), Noisy(4)};
+      },
+      0.75);
 }
 
-TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
-  if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
-  const Agreement agreement =
-      MeasureChanged([](const PhotoMeasurement& before, const cv::Size& size) {
-        std::vector<Change> cuts;
-        for (const double lengths : {0.4, 0.8, 1.2, 1.6})
-          if (const auto cut = CutBehind(before, lengths, size)) cuts.push_back(*cut);
-        return cuts;
-      });
-  printf("%d of %d\n", agreement.again, agreement.tried);
+TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
+  const auto cuts = [](const PhotoMeasurement& before, const cv::Size& size) {
+    std::vector<Change> changes;
+    for (const double lengths : kCutsBehind) {
+      if (const auto cut = CutBehind(before, lengths, size)) changes.push_back(*cut);
+    }
+    return changes;
+  };
+  ExpectAlikeOrRefused(cuts, 0.8);
 }
 
 }  // namespace
