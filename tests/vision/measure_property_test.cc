@@ -203,95 +203,111 @@ constexpr double kResamplingPx = 0.1;
 void ExpectSame(const PhotoMeasurement& before,
                 const PhotoMeasurement& after,
                 const Change& change,
-                const cv::Size& size,
-                double factor) {
+                const cv::Size& size) {
   const Vector2d expected = change.moved(before.pivot_px, size);
-  const double pivot_sigma = std::hypot(factor * before.pivot_sigma_px, after.pivot_sigma_px);
+  const double pivot_sigma =
+      std::hypot(change.factor * before.pivot_sigma_px, after.pivot_sigma_px);
   EXPECT_LT((after.pivot_px - expected).norm(), kSigmas * pivot_sigma + kResamplingPx);
   EXPECT_NEAR(after.theta_rad,
               before.theta_rad,
               kSigmas * std::hypot(before.theta_sigma_rad, after.theta_sigma_rad));
 }
 
-SceneSpec PlainScene() {
+struct Look {
+  std::string name;
+  Backdrop backdrop = Backdrop::kPaper;
+  bool in_the_sun = false;
+};
+
+constexpr double kMmPerPx = 0.25;
+
+SceneSpec SceneOf(const Look& look) {
   SceneSpec spec;
   spec.width = 1000;
   spec.height = 750;
-  spec.camera.mm_per_px = 0.25;
+  spec.camera.mm_per_px = kMmPerPx;
   spec.theta_rad = 24 * std::numbers::pi / 180;
+  spec.backdrop = look.backdrop;
+  if (look.in_the_sun) {
+    spec.light.shadow = 0.7;
+    spec.light.shadow_blur_mm = 0.2;
+    spec.light.glint = 1.2;
+  }
   return spec;
 }
 
-class RenderedPhotograph : public testing::Test {
+class RenderedPhotograph : public testing::TestWithParam<Look> {
  protected:
-  static void SetUpTestSuite() {
-    picture_ = new cv::Mat(RenderScene(PlainScene()).bgr);
-    before_ = new PhotoMeasurement(Measure(*picture_, kMmPerPx));
-  }
-  static void TearDownTestSuite() {
-    delete picture_;
-    delete before_;
+  void SetUp() override {
+    picture_ = RenderScene(SceneOf(GetParam())).bgr;
+    before_ = Measure(picture_, kMmPerPx);
   }
 
-  static void ExpectUnmoved(const Change& change, double factor = 1) {
+  void ExpectUnmoved(const Change& change) const {
     SCOPED_TRACE(change.name);
-    const PhotoMeasurement after = Measure(change.apply(*picture_), kMmPerPx / factor);
-    ExpectSame(*before_, after, change, picture_->size(), factor);
+    const PhotoMeasurement after = Measure(change.apply(picture_), kMmPerPx / change.factor);
+    ExpectSame(before_, after, change, picture_.size());
   }
 
-  static constexpr double kMmPerPx = 0.25;
-  static cv::Mat* picture_;
-  static PhotoMeasurement* before_;
+  cv::Mat picture_;
+  PhotoMeasurement before_;
 };
-cv::Mat* RenderedPhotograph::picture_ = nullptr;
-PhotoMeasurement* RenderedPhotograph::before_ = nullptr;
 
-TEST_F(RenderedPhotograph, TurnsWithThePicture) {
+INSTANTIATE_TEST_SUITE_P(Looks,
+                         RenderedPhotograph,
+                         testing::Values(Look{"paper"},
+                                         Look{"light_table", Backdrop::kLightTable},
+                                         Look{"drape", Backdrop::kDrape},
+                                         Look{"cloth", Backdrop::kCloth},
+                                         Look{"wood_in_the_sun", Backdrop::kWood, true}),
+                         [](const auto& info) { return info.param.name; });
+
+TEST_P(RenderedPhotograph, TurnsWithThePicture) {
   ExpectUnmoved(QuarterTurn());
   ExpectUnmoved(HalfTurn());
   for (const double degrees : {-33.0, 11.0}) ExpectUnmoved(Turned(degrees));
 }
 
-TEST_F(RenderedPhotograph, MirrorsWithThePicture) { ExpectUnmoved(Mirrored()); }
+TEST_P(RenderedPhotograph, MirrorsWithThePicture) { ExpectUnmoved(Mirrored()); }
 
-TEST_F(RenderedPhotograph, ScalesWithThePicture) {
-  for (const double factor : {0.5, 0.7, 1.4}) ExpectUnmoved(Scaled(factor), factor);
+TEST_P(RenderedPhotograph, ScalesWithThePicture) {
+  for (const double factor : {0.5, 0.7, 1.4}) ExpectUnmoved(Scaled(factor));
 }
 
 // Enlarged twice, the picture is so soft that the bevel's inner border may pass for the edge: then
 // the result must say that there was another one.
-TEST_F(RenderedPhotograph, ScalesOrIsDoubtedWhenEnlargedTwice) {
+TEST_P(RenderedPhotograph, ScalesOrIsDoubtedWhenEnlargedTwice) {
   const Change change = Scaled(2);
-  const PhotoMeasurement after = Measure(change.apply(*picture_), kMmPerPx / 2);
+  const PhotoMeasurement after = Measure(change.apply(picture_), kMmPerPx / 2);
   const auto& warnings = after.warnings;
   if (std::find(warnings.begin(), warnings.end(), "upper_edge_ambiguous") != warnings.end()) return;
-  ExpectSame(*before_, after, change, picture_->size(), 2);
+  ExpectSame(before_, after, change, picture_.size());
 }
 
 // Each edge passes the pivot as far off as the other; a shadow taken for one of them does not.
-TEST_F(RenderedPhotograph, IsDoubtedWhereOneEdgePassesThePivotFartherOff) {
-  const Vector2d across(-before_->axis_px.y(), before_->axis_px.x());
-  const double length = (before_->upper_end_px - before_->pivot_px).norm();
+TEST_P(RenderedPhotograph, IsDoubtedWhereOneEdgePassesThePivotFartherOff) {
+  const Vector2d across(-before_.axis_px.y(), before_.axis_px.x());
+  const double length = (before_.upper_end_px - before_.pivot_px).norm();
   const auto asymmetric = [&](double share) {
     SceneHints hints;
-    hints.pivot_px = before_->pivot_px + share * length * across;
-    const auto warnings = Measure(*picture_, kMmPerPx, hints).warnings;
+    hints.pivot_px = before_.pivot_px + share * length * across;
+    const auto warnings = Measure(picture_, kMmPerPx, hints).warnings;
     return std::find(warnings.begin(), warnings.end(), "blades_asymmetric") != warnings.end();
   };
   EXPECT_FALSE(asymmetric(0.01));
   EXPECT_TRUE(asymmetric(0.03));
 }
 
-TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderAnotherExposure) {
+TEST_P(RenderedPhotograph, KeepsItsMeasuresUnderAnotherExposure) {
   ExpectUnmoved(Exposed(-1));
   ExpectUnmoved(Exposed(0.4));  // a whole stop would clip the paper
 }
 
-TEST_F(RenderedPhotograph, KeepsItsMeasuresUnderMoreNoise) { ExpectUnmoved(Noisy(5)); }
+TEST_P(RenderedPhotograph, KeepsItsMeasuresUnderMoreNoise) { ExpectUnmoved(Noisy(5)); }
 
-TEST_F(RenderedPhotograph, KeepsItsMeasuresWithoutTheHandles) {
+TEST_P(RenderedPhotograph, KeepsItsMeasuresWithoutTheHandles) {
   for (const double lengths : kCutsBehind) {
-    const std::optional<Change> cut = CutBehind(*before_, lengths, picture_->size());
+    const std::optional<Change> cut = CutBehind(before_, lengths, picture_.size());
     ASSERT_TRUE(cut) << lengths;
     ExpectUnmoved(*cut);
   }
@@ -337,7 +353,7 @@ void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
       ++tried;
       const auto after = MeasureUnlessRefused(change.apply(picture));
       if (!after) continue;
-      ExpectSame(*before, *after, change, picture.size(), change.factor);
+      ExpectSame(*before, *after, change, picture.size());
       ++again;
     }
   }
