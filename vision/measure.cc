@@ -59,7 +59,7 @@ EdgePoints ToEdgePoints(const BladeFrame& frame,
   EdgePoints edges;
   const double shared_px = upper.edge.common_sigma_px;
   edges.upper = ToFrame(frame, upper.used);
-  edges.lower = ToFrame(frame, DoubtedAlone(lower, shared_px));
+  edges.lower = ToFrame(frame, DoubtedAlone(lower, upper));
   edges.pivot = frame.FromImage(pivot.point_px, pivot.covariance_px2);
   edges.upper_end = frame.FromImage(upper.end.point_px, EndCovariance(upper, shared_px));
   edges.lower_end = frame.FromImage(lower.end.point_px, EndCovariance(lower, shared_px));

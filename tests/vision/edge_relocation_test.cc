@@ -432,5 +432,21 @@ TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   EXPECT_EQ(PointsOf(measured.blades.upper), before);
 }
 
+// But no view makes edges unlike in shape.
+TEST(RelocateUnlikeEdges, DoubtsBothEdgesOfUnlikeShapeWithoutMarkers) {
+  constexpr double kBulgePx = 16;
+  for (const bool unlike : {false, true}) {
+    Measured measured{SceneWithMarkers()};
+    if (unlike) Bulge(&measured, &measured.blades.upper, 0.65, 1, kBulgePx);
+    measured.scale.sheet.reset();
+    ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    for (const LocatedBlade* blade : {&measured.blades.upper, &measured.blades.lower}) {
+      EXPECT_EQ(blade->edge.ambiguity > 0.7, unlike);
+      EXPECT_EQ(blade->edge.alone_sigma_px > 0.1 * kBulgePx, unlike);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace bladecurve

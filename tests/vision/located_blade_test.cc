@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace bladecurve {
 namespace {
@@ -60,6 +61,31 @@ TEST(KeepBeyondCrossing, LeavesHalfOfAnEdge) {
   Blades blades = CrossingAt(200, 20);
   KeepBeyondCrossing(&blades);
   EXPECT_EQ(blades.upper.used.size(), 281U);
+}
+
+// Standard uncertainty of a mean of independent points.
+double SigmaOfMean(const std::vector<LocatedEdgePoint>& points) {
+  double variance = 0;
+  for (const LocatedEdgePoint& point : points) variance += point.sigma_px * point.sigma_px;
+  return std::sqrt(variance) / static_cast<double>(points.size());
+}
+
+TEST(DoubtedAlone, MakesTheLowerEdgeAsUncertainAsWhatTheEdgesDoNotShare) {
+  constexpr double kShared = 2, kUpperAlone = 3, kLowerAlone = 4;  // px
+  struct Case {
+    double upper_alone, lower_alone, apart;
+  };
+  for (const auto& [upper_alone, lower_alone, apart] : {Case{0, 0, 0},
+                                                        Case{kUpperAlone, 0, kUpperAlone},
+                                                        Case{0, kLowerAlone, kLowerAlone},
+                                                        Case{kUpperAlone, kLowerAlone, 5}}) {
+    Blades blades = CrossingAt(80, 100);
+    blades.upper.edge.alone_sigma_px = upper_alone;
+    blades.lower.edge.alone_sigma_px = lower_alone;
+    blades.upper.edge.common_sigma_px = std::hypot(kShared, upper_alone);
+    blades.lower.edge.common_sigma_px = std::hypot(kShared, lower_alone);
+    EXPECT_NEAR(SigmaOfMean(DoubtedAlone(blades.lower, blades.upper)), apart, 0.01 * apart);
+  }
 }
 
 }  // namespace

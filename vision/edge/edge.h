@@ -48,6 +48,7 @@ struct LocatedEdge {
   double correlation_px = 0;  // neighbours closer than this are not independent
   double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow
   double rival_sigma_px = 0;   // the part of it that the rival makes
+  double alone_sigma_px = 0;   // the part of it that the pair's other edge surely does not share
   double slope_sigma_px = 0;   // the part of it that light makes which slopes beside the edge
   double ambiguity =
       0;                // 0: one clear transition; towards 1: several about as good (bevel, shadow)

@@ -82,9 +82,10 @@ bool PassUnlike(const Pivot& pivot) {
   return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
 }
 
-// Less certain by that much, standard.
+// Less certain by that much, standard, for reasons of its own.
 void AddSigma(LocatedEdge* edge, double off_px) {
   edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
 }
 
 }  // namespace

@@ -50,6 +50,13 @@ double AloneVariance(const LocatedEdge& edge, double shared_px) {
   return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - shared_px * shared_px);
 }
 
+double Square(double x) { return x * x; }
+
+// Of an offset that the other edge of the pair may have as well. px^2.
+double ShareableVariance(const LocatedEdge& edge) {
+  return std::max(0.0, Square(edge.common_sigma_px) - Square(edge.alone_sigma_px));
+}
+
 // Whether the piece from a0 to a1 crosses that from b0 to b1.
 bool CrossEachOther(const Vector2d& a0,
                     const Vector2d& a1,
@@ -192,13 +199,15 @@ double EdgeSigmaPx(const LocatedBlade& blade) {
   return std::hypot(MedianSigma(blade.used), blade.edge.common_sigma_px);
 }
 
-std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, double upper_common_px) {
+std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, const LocatedBlade& upper) {
   std::vector<LocatedEdgePoint> points = lower.used;
-  const double alone_px2 = AloneVariance(lower.edge, upper_common_px);
-  if (!(alone_px2 > 0)) return points;
+  const double shared_px2 = std::min(ShareableVariance(lower.edge), ShareableVariance(upper.edge));
+  const double apart_px2 =
+      Square(lower.edge.common_sigma_px) + Square(upper.edge.common_sigma_px) - 2 * shared_px2;
+  if (!(apart_px2 > 0)) return points;
   const double length_px = (points.back().point_px - points.front().point_px).norm();
   const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
-  const double variance_px2 = alone_px2 * std::max(1.0, independent);
+  const double variance_px2 = apart_px2 * std::max(1.0, independent);
   for (LocatedEdgePoint& point : points) {
     point.sigma_px = std::sqrt(point.sigma_px * point.sigma_px + variance_px2);
   }

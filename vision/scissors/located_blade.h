@@ -61,10 +61,10 @@ void PlaceEndOnCourse(LocatedBlade* blade);
 // The same of a blade's edge, what its points have in common counted.
 [[nodiscard]] double EdgeSigmaPx(const LocatedBlade& blade);
 
-// The lower edge's points as the fit is to take them: it tells what they share from nothing but
-// what both edges share. Where the lower edge is more doubtful than the upper one, its points
-// become so uncertain that their mean is as doubtful as the edge.
+// The lower edge's points as the fit is to take them, which knows one offset, of both edges, as
+// uncertain as the upper one's. Where more is uncertain about either edge than both may share, the
+// lower one's points become so uncertain that their mean is as doubtful as the edges' difference.
 [[nodiscard]] std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower,
-                                                         double upper_common_px);
+                                                         const LocatedBlade& upper);
 
 }  // namespace bladecurve
