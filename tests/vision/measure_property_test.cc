@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(Looks,
                                          Look{"drape", Backdrop::kDrape},
                                          Look{"cloth", Backdrop::kCloth},
                                          Look{"wood_in_the_sun", Backdrop::kWood, true}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& look) { return look.param.name; });
 
 TEST_P(RenderedPhotograph, TurnsWithThePicture) {
   ExpectUnmoved(QuarterTurn());

@@ -125,7 +125,9 @@ struct Measured {
   }
 
   void Compare() {
-    pivot.asymmetry = EdgeAsymmetry(PairOf(blades.upper, blades.lower), pivot.point_px);
+    const EdgePair edges = PairOf(blades.upper, blades.lower);
+    pivot.asymmetry = EdgeAsymmetry(edges, pivot.point_px);
+    pivot.unlikeness = EdgeUnlikeness(edges, pivot.point_px);
   }
 
   // As if the other side of the scissors were up.
