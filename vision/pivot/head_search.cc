@@ -128,16 +128,25 @@ std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search
   return Find(known.grey, known.scale, known.scene, search);
 }
 
+// What is seen in each of the searches, side by side.
+std::vector<std::optional<Screw>> FindInEach(const HeadSearch& known,
+                                             const std::vector<ScrewSearch>& searches) {
+  return ParallelMap(static_cast<int>(searches.size()),
+                     [&](int i) { return FindHere(known, searches[static_cast<std::size_t>(i)]); });
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts.
 std::optional<Screw> LookForScrew(const HeadSearch& known) {
   const Scene& scene = known.scene;
   std::optional<Screw> clearest = known.at_joint;
-  for (const ScrewSearch& search :
-       {SearchForHead(known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
-        SearchOverlap(known.scale, scene, 0.25)}) {
+  if (clearest && clearest->evidence > kBeyondDoubt) return clearest;
+  for (const std::optional<Screw>& screw :
+       FindInEach(known,
+                  {SearchForHead(
+                       known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
+                   SearchOverlap(known.scale, scene, 0.25)})) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
-    const std::optional<Screw> screw = FindHere(known, search);
     if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
   }
   return clearest;
@@ -198,19 +207,20 @@ std::optional<Screw> LookForSlot(const HeadSearch& known) {
   return nearest;
 }
 
-// What is seen in seven discs that cover the search: in each, a head is judged by its own
-// surroundings, and by as many candidates as in all of it.
-std::vector<std::optional<Screw>> FindPieceByPiece(const HeadSearch& known,
-                                                   const ScrewSearch& search) {
+// Seven discs that cover the search: in each, a head is judged by its own surroundings, and by as
+// many candidates as in all of it.
+std::vector<ScrewSearch> PiecesOf(const ScrewSearch& search) {
   constexpr int kAround = 6;
   const double half_px = 0.5 * search.radius_px, apart_px = std::sqrt(3.0) * half_px;
-  return ParallelMap(kAround + 1, [&](int i) {
+  ScrewSearch piece = search;
+  piece.radius_px = half_px;
+  std::vector<ScrewSearch> pieces(kAround + 1, piece);
+  for (int i = 0; i < kAround; ++i) {
     const double angle = 2 * std::numbers::pi * i / kAround;
-    ScrewSearch piece = search;
-    piece.radius_px = half_px;
-    if (i < kAround) piece.guess_px += apart_px * Vector2d(std::cos(angle), std::sin(angle));
-    return FindHere(known, piece);
-  });
+    pieces[static_cast<std::size_t>(i)].guess_px +=
+        apart_px * Vector2d(std::cos(angle), std::sin(angle));
+  }
+  return pieces;
 }
 
 // Where no head was seen that can be trusted: one further forward; one all about the overlap; a
@@ -232,13 +242,13 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
     return !clearest || screw.evidence > clearest->evidence;
   };
   for (const std::optional<Screw>& screw :
-       FindPieceByPiece(known, SearchAllAbout(known.scale, known.scene, faintest))) {
+       FindInEach(known, PiecesOf(SearchAllAbout(known.scale, known.scene, faintest)))) {
     if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
   }
   if (clearest) return clearest;
-  for (const ScrewSearch& search :
-       {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)}) {
-    const auto other = FindHere(known, search);
+  for (const std::optional<Screw>& other : FindInEach(
+           known,
+           {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)})) {
     if (!other || !is_clearer(*other)) continue;
     const bool at_place = other->evidence > kFaint && LiesWhereBladesTurn(*other, known);
     if (other->evidence > kUnmistakable || MirrorNear(*other, known) ||
