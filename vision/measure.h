@@ -43,7 +43,7 @@ struct PhotoMeasurement {
   std::vector<Eigen::Vector2d> upper_edge_px, lower_edge_px;
   std::vector<Eigen::Vector2d> upper_edge_mm;  // in the frame of `edges`
   double upper_edge_sigma_px = 0;
-  Eigen::Vector2d upper_end_px, lower_end_px;
+  Eigen::Vector2d upper_end_px{0, 0}, lower_end_px{0, 0};
   std::vector<std::string> warnings;  // each makes the result `review`
   std::vector<StageRecord> plan;
   double ms_total = 0;

@@ -342,12 +342,14 @@ using ChangesOf =
 // edge of what can be seen may tip over, but not into another answer. Of all so large a share must
 // agree.
 void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
-  int tried = 0, again = 0;
-  for (const fs::path& file : RealPhotographs()) {
+  const std::vector<fs::path> photographs = RealPhotographs();
+  int measured = 0, tried = 0, again = 0;
+  for (const fs::path& file : photographs) {
     SCOPED_TRACE(file.filename());
     const cv::Mat picture = SmallPicture(file);
     const std::optional<PhotoMeasurement> before = MeasureUnlessRefused(picture);
     if (!before) continue;
+    ++measured;
     for (const Change& change : changes(*before, picture.size())) {
       SCOPED_TRACE(change.name);
       ++tried;
@@ -357,6 +359,7 @@ void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
       ++again;
     }
   }
+  EXPECT_GT(measured, static_cast<int>(photographs.size()) / 2);
   EXPECT_GE(tried, 20);
   EXPECT_GE(again, least_share * tried) << again << " of " << tried;
 }

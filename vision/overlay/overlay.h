@@ -16,7 +16,7 @@ struct Overlay {
   std::vector<Eigen::Vector2d> upper_edge_px;   // located, in order
   std::vector<Eigen::Vector2d> fitted_edge_px;  // the fitted curve beside each of them
   std::vector<Eigen::Vector2d> lower_edge_px;   // located; may be empty
-  Eigen::Vector2d upper_end_px, lower_end_px;
+  Eigen::Vector2d upper_end_px{0, 0}, lower_end_px{0, 0};
   Eigen::Vector2d pivot_px{0, 0};
   double pivot_sigma_px = 0;
   Eigen::Vector2d axis_px{0, 0};  // unit image direction of +x

@@ -45,16 +45,14 @@ double SmearedByTip(const std::vector<Vector2d>& points) {
   return std::min(kSmearedPx, kMostOfEdge * (points.back() - points.front()).norm());
 }
 
-// What is uncertain about where the edge lies, beside an offset that both edges share. px^2.
-double AloneVariance(const LocatedEdge& edge, double shared_px) {
-  return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - shared_px * shared_px);
+// What is uncertain about where the edge lies, beside a part of that. px^2.
+double VarianceBeside(double part_px, const LocatedEdge& edge) {
+  return std::max(0.0, edge.common_sigma_px * edge.common_sigma_px - part_px * part_px);
 }
 
-double Square(double x) { return x * x; }
-
-// Of an offset that the other edge of the pair may have as well. px^2.
-double ShareableVariance(const LocatedEdge& edge) {
-  return std::max(0.0, Square(edge.common_sigma_px) - Square(edge.alone_sigma_px));
+// Of an offset that the edge may have, how much the other edge of the pair may have as well. px.
+double ShareableSigma(const LocatedEdge& edge) {
+  return std::sqrt(VarianceBeside(edge.alone_sigma_px, edge));
 }
 
 // Whether the piece from a0 to a1 crosses that from b0 to b1.
@@ -177,7 +175,7 @@ Matrix2d EndCovariance(const LocatedBlade& blade, double shared_px) {
   const Vector2d across = blade.used.back().normal;
   const Vector2d along(-across.y(), across.x());
   const double across_sigma = std::hypot(blade.used.back().sigma_px,
-                                         std::sqrt(AloneVariance(blade.edge, shared_px)),
+                                         std::sqrt(VarianceBeside(shared_px, blade.edge)),
                                          blade.end.across_sigma_px);
   return AlongAcross(along, blade.end.along_sigma_px, across_sigma);
 }
@@ -201,9 +199,9 @@ double EdgeSigmaPx(const LocatedBlade& blade) {
 
 std::vector<LocatedEdgePoint> DoubtedAlone(const LocatedBlade& lower, const LocatedBlade& upper) {
   std::vector<LocatedEdgePoint> points = lower.used;
-  const double shared_px2 = std::min(ShareableVariance(lower.edge), ShareableVariance(upper.edge));
+  const double shared_px = std::min(ShareableSigma(lower.edge), ShareableSigma(upper.edge));
   const double apart_px2 =
-      Square(lower.edge.common_sigma_px) + Square(upper.edge.common_sigma_px) - 2 * shared_px2;
+      VarianceBeside(shared_px, lower.edge) + VarianceBeside(shared_px, upper.edge);
   if (!(apart_px2 > 0)) return points;
   const double length_px = (points.back().point_px - points.front().point_px).norm();
   const double independent = length_px / std::max(1.0, lower.edge.correlation_px);
