@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector2d;
 
 // A head flush with its joint, seen against the light: only its slot shows.
-HeadSpec FlushHead(std::uint32_t seed) {
+HeadSpec FlushHead(std::uint32_t seed, double slot = -0.2) {
   Draws draws(seed);
   HeadSpec head;
   head.seed = seed;
@@ -24,7 +24,7 @@ HeadSpec FlushHead(std::uint32_t seed) {
   head.center_px = Vector2d::Constant(head.side_px / 2.0) +
                    radius * Vector2d(draws.Uniform(-1, 1), draws.Uniform(-1, 1));
   head.semi_major_px = head.semi_minor_px = radius;
-  head.slot = -0.2;
+  head.slot = slot;
   head.slot_width = 0.12;
   head.slot_angle_rad = draws.Uniform(0, std::numbers::pi);
   return head;
@@ -39,10 +39,11 @@ ScrewSearch SearchAbout(const cv::Mat& grey, double radius_px) {
   return search;
 }
 
-TEST(FindSlottedHeads, FindsTheCentreOfAHeadWhoseRimDoesNotShow) {
+// slot: how much brighter than the head, linear light.
+void ExpectFound(double slot) {
   constexpr double kClose = 0.05;  // of the radius
   for (std::uint32_t seed = 1; seed <= 20; ++seed) {
-    const HeadSpec head = FlushHead(seed);
+    const HeadSpec head = FlushHead(seed, slot);
     const cv::Mat grey = RenderHead(head);
     const std::vector<Screw> heads =
         FindSlottedHeads(grey, SrgbToneCurve(), SearchAbout(grey, head.semi_major_px));
@@ -53,6 +54,19 @@ TEST(FindSlottedHeads, FindsTheCentreOfAHeadWhoseRimDoesNotShow) {
       EXPECT_NEAR(found.semi_major_px, head.semi_major_px, 0.2 * head.semi_major_px) << seed;
     }
   }
+}
+
+TEST(FindSlottedHeads, FindsTheCentreOfAHeadWhoseRimDoesNotShow) { ExpectFound(-0.2); }
+
+TEST(FindSlottedHeads, FindsItByASlotThatMirrorsTheLight) { ExpectFound(0.3); }
+
+TEST(FindSlottedHeads, TakesNoBrightStreakOfBrushedMetalForASlot) {
+  constexpr double kRadiusPx = 20;
+  constexpr int kMetal = 235, kStreak = 248;
+  cv::Mat grey(160, 160, CV_8UC1, cv::Scalar(kMetal));
+  cv::line(grey, {62, 74}, {98, 86}, kStreak, 3);
+  cv::GaussianBlur(grey, grey, {}, 0.8);
+  EXPECT_TRUE(FindSlottedHeads(grey, SrgbToneCurve(), SearchAbout(grey, kRadiusPx)).empty());
 }
 
 TEST(FindSlottedHeads, TakesNoLongLineNorASpeckForASlot) {

@@ -76,17 +76,16 @@ Screw HeadOf(const ScrewSlot& slot, double radius_px) {
   return screw;
 }
 
-}  // namespace
-
-std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
-                                    const ToneCurve& tone,
-                                    const ScrewSearch& search) {
+// Heads by their dark slots.
+void AddSlottedHeads(const cv::Mat& grey,
+                     const ToneCurve& tone,
+                     const ScrewSearch& search,
+                     std::vector<Screw>* heads) {
   constexpr double kFaint = 0.12, kDeep = 0.35;    // darker; deep slots may touch faint lines
   constexpr double kWidest = 0.35;                 // of the largest head's radius
   constexpr double kShorter = 0.8, kLonger = 1.1;  // than heads are wide
   const ScaledWindow part = PartOf(grey, search);
-  std::vector<Screw> heads;
-  if (part.grey.empty()) return heads;
+  if (part.grey.empty()) return;
   for (const double darker : {kFaint, kDeep}) {
     for (const Bar& bar :
          BarsIn(DarkLines(part.grey, kWidest * search.max_semi_axis_px / part.scale, darker))) {
@@ -97,9 +96,31 @@ std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
           (middle_px - search.guess_px).norm() > search.radius_px)
         continue;
       const std::optional<ScrewSlot> slot = FindSlot(grey, tone, middle_px, radius_px);
-      if (slot && slot->ends_seen) heads.push_back(HeadOf(*slot, radius_px));
+      if (slot && slot->ends_seen) heads->push_back(HeadOf(*slot, radius_px));
     }
   }
+}
+
+// Of a picture's negative in which light is what it was once divided by: a bright bar is as dark
+// there as it is brighter than its surroundings, on bright metal too.
+ToneCurve NegativeOf(const ToneCurve& tone) {
+  ToneCurve negative = tone;
+  for (std::size_t grey = 0; grey < negative.linear.size(); ++grey) {
+    const float light = tone.linear[tone.linear.size() - 1 - grey];
+    negative.linear[grey] =
+        static_cast<float>(kDarkestLight) / std::max(static_cast<float>(kDarkestLight), light);
+  }
+  return negative;
+}
+
+}  // namespace
+
+std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
+                                    const ToneCurve& tone,
+                                    const ScrewSearch& search) {
+  std::vector<Screw> heads;
+  AddSlottedHeads(grey, tone, search, &heads);
+  AddSlottedHeads(~grey, NegativeOf(tone), search, &heads);
   return heads;
 }
 
