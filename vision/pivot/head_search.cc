@@ -135,19 +135,38 @@ std::vector<std::optional<Screw>> FindInEach(const HeadSearch& known,
                      [&](int i) { return FindHere(known, searches[static_cast<std::size_t>(i)]); });
 }
 
+// ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
+// pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
+double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSlotted = 3;
+  const PlacePx& place = known.by_geometry;
+  return screw.evidence + (screw.slot && screw.slot->ends_seen ? kSlotted : 0) -
+         0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
+}
+
+// Whether a head of which little shows lies near enough to there. In a known view the edges say
+// more, by mirroring each other about it or not.
+bool IsCredibleThere(const Screw& screw, const HeadSearch& known) {
+  constexpr double kLeast = 3;  // 20 to 1
+  return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeast;
+}
+
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
-// nearer, so that fewer other arcs compete, and further back. The clearest counts.
+// nearer, so that fewer other arcs compete, and further back. The clearest counts that is credible
+// where it lies.
 std::optional<Screw> LookForScrew(const HeadSearch& known) {
   const Scene& scene = known.scene;
   std::optional<Screw> clearest = known.at_joint;
   if (clearest && clearest->evidence > kBeyondDoubt) return clearest;
+  if (clearest && !IsCredibleThere(*clearest, known)) clearest.reset();
   for (const std::optional<Screw>& screw :
        FindInEach(known,
                   {SearchForHead(
                        known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
                    SearchOverlap(known.scale, scene, 0.25)})) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
-    if (screw && (!clearest || Credence(*screw) > Credence(*clearest))) clearest = screw;
+    if (!screw || !IsCredibleThere(*screw, known)) continue;
+    if (!clearest || Credence(*screw) > Credence(*clearest)) clearest = screw;
   }
   return clearest;
 }
@@ -271,9 +290,12 @@ std::optional<Screw> LookAtJoint(const cv::Mat& grey,
 
 std::optional<Screw> FindHead(const HeadSearch& search) {
   const std::optional<Screw> seen = LookForScrew(search);
-  if (seen && (!IsFaint(*seen) || MayMirrorAbout(*seen, search))) return seen;
+  if (seen && !IsFaint(*seen)) return seen;
   const std::optional<Screw> further = LookFurther(search);
-  return !further && seen && MirrorNear(*seen, search) ? seen : further;
+  if (!seen) return further;
+  if (MayMirrorAbout(*seen, search))
+    return further && further->evidence > seen->evidence ? further : seen;
+  return !further && MirrorNear(*seen, search) ? seen : further;
 }
 
 }  // namespace bladecurve
