@@ -147,6 +147,7 @@ void DoubtUnlikeShapes(const Pivot& pivot, Blades* blades) {
 // other lines lie where a slanted view would have it.
 void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.5;  // of the way
+  constexpr double kSeen = 0.6;   // ambiguity; cloth has lines of more
   const auto [inner, other] = InnerOne(pivot, blades);
   const MirrorLine line = LineBetween(view, pivot, *blades);
   if (&inner == &blades->lower) {
@@ -155,7 +156,7 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   }
   const MirroredBladeSearch search{view, pivot, other, line};
   std::optional<RelocatedBlade> found = LookWhereMirrored(search);
-  if (!found) return;
+  if (!found || found->blade.edge.ambiguity > kSeen) return;
   Doubt(&found->blade.edge, kDoubt * WayPx(search));
   Replace(*found, kWhereMirrored, &inner);
 }
