@@ -157,7 +157,8 @@ const char* WhyRun(bool full, const char* need) { return full ? "all ways are wa
 LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   const bool full = plan == Plan::kFull;
   LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
-  log->Ran("scene-grey", "the cheapest look");
+  log->Ran("scene-grey",
+           view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look");
   const bool grey_suffices = Consistent(result);
   if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log->Skipped("scene-colour", "grey gave a consistent scene");
@@ -205,6 +206,14 @@ LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
   return in_broad;
 }
 
+// The same with all that was seen.
+LadderResult ClimbNoting(const SceneView& view, Plan plan, StageLog* log) {
+  Rung all;
+  LadderResult result = Climb(view, plan, &all, log);
+  result.seen = std::move(all.candidates);
+  return result;
+}
+
 // What the candidates that are kept show best.
 template <typename IsKept>
 LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
@@ -239,10 +248,14 @@ LadderResult ClimbLadder(const Photo& photo,
                       " is less than " + std::to_string(kSmallestSide) + " px high or wide; " +
                       (hints.roi_px ? "give a larger one" : "use a larger photograph"));
   }
-  Rung all;
-  LadderResult result = Climb(view, plan, &all, log);
-  result.seen = std::move(all.candidates);
-  return result;
+  const LadderResult result = ClimbNoting(view, plan, log);
+  if (ShowsWholeBlades(result) || result.closed || !view.KeepsNoise(kSmallSide)) return result;
+  SceneView smooth = view;
+  smooth.smooth = true;
+  LadderResult in_smooth = ClimbNoting(smooth, plan, log);
+  if (!ShowsWholeBlades(in_smooth)) return result;
+  in_smooth.climbed = true;
+  return in_smooth;
 }
 
 LadderResult ByOtherMethods(const LadderResult& result, const std::string& method) {

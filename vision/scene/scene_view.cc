@@ -35,6 +35,11 @@ cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
   return resized;
 }
 
+void SmoothIfWanted(const SceneView& view, cv::Mat* small) {
+  constexpr double kSigmaPx = 1;
+  if (view.smooth) cv::GaussianBlur(*small, *small, {0, 0}, kSigmaPx);
+}
+
 // The same area in colour, 8 bit.
 cv::Mat SmallBgr(const SceneView& view, int longest) {
   const cv::Size full = view.photo.grey().size();
@@ -44,8 +49,10 @@ cv::Mat SmallBgr(const SceneView& view, int longest) {
   const double k = static_cast<double>(colour.cols) / full.width;
   const cv::Rect2d area(
       view.area_px.x * k, view.area_px.y * k, view.area_px.width * k, view.area_px.height * k);
-  return Resized(colour(cv::Rect(area) & cv::Rect({0, 0}, colour.size())),
-                 SmallSize(view.area_px, longest));
+  cv::Mat small = Resized(colour(cv::Rect(area) & cv::Rect({0, 0}, colour.size())),
+                          SmallSize(view.area_px, longest));
+  SmoothIfWanted(view, &small);
+  return small;
 }
 
 }  // namespace
@@ -57,6 +64,11 @@ SceneView::SceneView(const Photo& photo_in,
       markers(markers_in),
       hints(hints_in),
       area_px(WholeOrRoi(photo_in, hints_in)) {}
+
+bool SceneView::KeepsNoise(int longest) const {
+  constexpr double kReduced = 1.5;
+  return std::max(area_px.width, area_px.height) < kReduced * longest;
+}
 
 cv::Mat SceneView::MarkerMask(const ScaledImage& at) const {
   constexpr double kMargin = 1.6;  // side of the paper over that of the marker
@@ -93,6 +105,7 @@ ScaledImage SmallGrey(const SceneView& view, int longest) {
     BlockMeans(view.photo.grey()(area), factor).convertTo(reduced, CV_8U);
     small.area_px = cv::Rect(area.tl(), reduced.size() * factor);
   }
+  SmoothIfWanted(view, &reduced);
   reduced.convertTo(small.pixels, CV_32FC1, 100.0 / 255);
   return small;
 }

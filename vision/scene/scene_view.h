@@ -37,8 +37,13 @@ struct SceneView {
   const std::vector<SeenMarker>& markers;
   const StoredHints& hints;
   cv::Rect area_px;
+  // Small pictures are smoothed: those that are hardly reduced keep all noise of the photograph.
+  bool smooth = false;
 
   SceneView(const Photo& photo, const std::vector<SeenMarker>& markers, const StoredHints& hints);
+
+  // Whether pictures of `longest` px keep most of the noise.
+  [[nodiscard]] bool KeepsNoise(int longest) const;
 
   // Non-zero on the printed markers and their white margins, which are not scissors; empty if there
   // are none.
