@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -37,6 +39,7 @@ struct Change {
   std::function<cv::Mat(const cv::Mat&)> apply;
   std::function<Vector2d(const Vector2d&, const cv::Size&)> moved;
   double factor = 1;  // of the size
+  bool swaps_blades = false;
 };
 
 Vector2d Stays(const Vector2d& p, const cv::Size& /*size*/) { return p; }
@@ -101,7 +104,9 @@ Change Mirrored() {
           },
           [](const Vector2d& p, const cv::Size& size) {
             return Vector2d(size.width - 1 - p.x(), p.y());
-          }};
+          },
+          1,
+          true};
 }
 
 Change Scaled(double factor) {
@@ -155,6 +160,61 @@ Change Noisy(double grey) {
           Stays};
 }
 
+// Turned and scaled about the middle, on as much ground more as that needs.
+class TurnedAndScaled {
+ public:
+  TurnedAndScaled(double angle_rad, double factor)
+      : turn_(factor * Eigen::Rotation2Dd(angle_rad).toRotationMatrix()), factor_(factor) {}
+
+  [[nodiscard]] Vector2d Moved(const Vector2d& p, const cv::Size& size) const {
+    return turn_ * (p - Middle(size)) + Middle(Grown(size));
+  }
+
+  [[nodiscard]] cv::Mat Apply(const cv::Mat& picture) const {
+    constexpr double kLensBlur = 0.5;  // px, of what is reduced
+    cv::Mat sharp = picture;
+    if (factor_ < 1) {
+      const double sigma = kLensBlur * std::sqrt(1 / (factor_ * factor_) - 1) + 1e-3;
+      cv::GaussianBlur(picture, sharp, {}, sigma);
+    }
+    const Vector2d shift = Moved(Vector2d::Zero(), picture.size());
+    const cv::Matx23d affine(
+        turn_(0, 0), turn_(0, 1), shift.x(), turn_(1, 0), turn_(1, 1), shift.y());
+    cv::Mat moved;
+    cv::warpAffine(
+        sharp, moved, affine, Grown(picture.size()), cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    return moved;
+  }
+
+  [[nodiscard]] double factor() const { return factor_; }
+
+ private:
+  static Vector2d Middle(const cv::Size& size) {
+    return {0.5 * (size.width - 1), 0.5 * (size.height - 1)};
+  }
+  [[nodiscard]] cv::Size Grown(const cv::Size& size) const {
+    const Vector2d grown = turn_.cwiseAbs() * Vector2d(size.width, size.height);
+    return {static_cast<int>(grown.x()), static_cast<int>(grown.y())};
+  }
+
+  Eigen::Matrix2d turn_;
+  double factor_;
+};
+
+// Turned by any angle, in another size, light and noise.
+Change AllAtOnce(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  const TurnedAndScaled move(uniform(0, 2 * std::numbers::pi), std::exp2(uniform(-0.8, 1)));
+  const Change exposed = Exposed(uniform(-1, 0.2)), noisy = Noisy(uniform(0, 4));
+  return {"all at once, seed " + std::to_string(seed),
+          [=](const cv::Mat& picture) { return noisy.apply(exposed.apply(move.Apply(picture))); },
+          [=](const Vector2d& p, const cv::Size& size) { return move.Moved(p, size); },
+          move.factor()};
+}
+
 // The part of the picture that a line across it leaves, so many blades' lengths behind the pivot.
 std::optional<Change> CutBehind(const PhotoMeasurement& seen,
                                 double lengths,
@@ -200,6 +260,28 @@ std::optional<PhotoMeasurement> MeasureUnlessRefused(const cv::Mat& picture) {
 constexpr double kSigmas = 3;
 constexpr double kResamplingPx = 0.1;
 
+double DistanceToPath(const Vector2d& point, const std::vector<Vector2d>& path) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Vector2d step = path[i] - path[i - 1];
+    const double t = std::clamp((point - path[i - 1]).dot(step) / step.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (point - path[i - 1] - t * step).norm());
+  }
+  return least;
+}
+
+// Of the part of `points` that lies beside the path, not beyond its ends, root mean square.
+double OffPath(const std::vector<Vector2d>& points, const std::vector<Vector2d>& path) {
+  double squares = 0, count = 0;
+  for (const Vector2d& p : points) {
+    if ((p - path.front()).dot(path[1] - path.front()) < 0) continue;
+    if ((p - path.back()).dot(path[path.size() - 2] - path.back()) < 0) continue;
+    squares += std::pow(DistanceToPath(p, path), 2);
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::infinity();
+}
+
 void ExpectSame(const PhotoMeasurement& before,
                 const PhotoMeasurement& after,
                 const Change& change,
@@ -211,6 +293,13 @@ void ExpectSame(const PhotoMeasurement& before,
   EXPECT_NEAR(after.theta_rad,
               before.theta_rad,
               kSigmas * std::hypot(before.theta_sigma_rad, after.theta_sigma_rad));
+  if (change.swaps_blades) return;
+  std::vector<Vector2d> edge;
+  for (const Vector2d& p : before.upper_edge_px) edge.push_back(change.moved(p, size));
+  EXPECT_LT(
+      OffPath(after.upper_edge_px, edge),
+      kSigmas * std::hypot(change.factor * before.upper_edge_sigma_px, after.upper_edge_sigma_px) +
+          kResamplingPx);
 }
 
 struct Look {
@@ -394,6 +483,14 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise)
         return std::vector{Exposed(-1), Exposed(1), Noisy(4)};
       },
       0.75);
+}
+
+TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAllAtOnce) {
+  ExpectAlikeOrRefused(
+      [](auto&, auto&) {
+        return std::vector{AllAtOnce(1), AllAtOnce(2), AllAtOnce(3)};
+      },
+      0.85);
 }
 
 TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {

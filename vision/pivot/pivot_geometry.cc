@@ -215,10 +215,12 @@ Estimate BehindByWaist(const Scene& scene, const EdgeMirror& mirror) {
 
 Estimate BehindByGeometry(const Scene& scene, const EdgeMirror& mirror) {
   constexpr double kMostOverlap = 0.14;
+  constexpr double kContradicted = 0.5;  // of what the limits move it by: an edge may be wrong
   const Estimate waist = BehindByWaist(scene, mirror);
   const double nearest = BehindForOverlap(mirror, kUsualOverlap);
   if (mirror.length_px <= 0 || !std::isfinite(nearest)) return waist;
-  return Truncated(waist, nearest, BehindForOverlap(mirror, kMostOverlap));
+  const Estimate held = Truncated(waist, nearest, BehindForOverlap(mirror, kMostOverlap));
+  return {held.value, std::hypot(held.sigma, kContradicted * (held.value - waist.value))};
 }
 
 }  // namespace bladecurve
