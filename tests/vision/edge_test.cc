@@ -393,6 +393,23 @@ TEST(LocateEdge, TheDeeperFallOfLightIsTheBorderHoweverSoft) {
   }
 }
 
+// Scene finding may have seen the bright part of the blade only: it guesses further off the border
+// than it takes borders to lie.
+TEST(LocateEdge, WhereLightFallsTwiceTheOuterFallIsTheBorderHoweverFarFromTheGuess) {
+  constexpr double kClose = 0.05;             // px
+  constexpr double kBevel = 7, kGuess = -11;  // px
+  Gaussian random(23);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light =
+        Banded(line, [](double d) { return 200 - 90 * Edge(d + kBevel) - 60 * Edge(d); });
+    const LocatedEdge edge = LocateEdge(testing::Stored(light, 1.5, 1, random),
+                                        testing::GammaCurve(1),
+                                        GuessOf(line, kGuess, kGuess));
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, kClose);
+  }
+}
+
 TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
   Gaussian random(17);
   const Line line = RandomLine(random);

@@ -104,26 +104,31 @@ double WidestBevel(const Survey& survey) {
 }
 
 // The next line further out, where it is about as clear and as high: what lies outside a silhouette
-// is not.
+// is not. Where light falls at both, the outer one is no shadow's border, at which it rises: half
+// as high is enough, and the guess may have lain on a bevel's inner line, farther off than it may
+// lie from the border.
 StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch& search) {
-  constexpr int kApart = 2;                          // px; nearer lines are the same
-  constexpr double kAsClear = 0.75, kAsHigh = 0.75;  // of the line
+  constexpr int kApart = 2;  // px; nearer lines are the same
+  constexpr double kAsClear = 0.75, kAsHigh = 0.75, kAsHighFalling = 0.5;  // of the line
   const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
+  const auto falls_too = [&](std::size_t at) { return height < 0 && survey.map.height[at] < 0; };
   const StepLine outer =
       FindBestLine(survey.map,
                    Scores(survey,
                           [&](int station, int row) {
                             const int outwards = row - line.rows[Index(station)];
                             if (outwards <= kApart || outwards > widest) return kForbidden;
-                            if (std::abs(survey.FromGuess(station, row)) > search.reach_px)
+                            if (std::abs(survey.FromGuess(station, row)) > search.reach_px &&
+                                !falls_too(survey.map.At(station, row)))
                               return kForbidden;
                             if (FallsDeeper(survey.map, station, row, height)) return 1.0F;
                             return survey.map.clear[survey.map.At(station, row)];
                           }),
                    search.bend);
   const bool clear = outer.score > kAsClear * line.score;
-  const bool high = std::abs(HeightUnder(survey.map, outer)) > kAsHigh * std::abs(height);
-  return clear && high ? outer : line;
+  const double outer_height = HeightUnder(survey.map, outer);
+  const double as_high = height < 0 && outer_height < 0 ? kAsHighFalling : kAsHigh;
+  return clear && std::abs(outer_height) > as_high * std::abs(height) ? outer : line;
 }
 
 // A dark band between bright metal and a bright background is the bevel where it is narrow; where
