@@ -375,6 +375,19 @@ TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAHigherStepUnlessThePivotMayHavePar
   }
 }
 
+// At no shadow's border does light fall, going outwards: what is within is a line on the blade.
+TEST(RelocateUnlikeEdges, TakesNoClearEdgeAtWhichLightFallsToALineFurtherIn) {
+  constexpr double kAsidePx = 8, kContrast = 0.05, kSurePx = 0.3;
+  for (const double contrast : {kContrast, -kContrast}) {
+    Measured measured{SceneWithMarkers()};
+    measured.Misplace(&measured.blades.upper, kAsidePx, contrast);
+    Measured::MakeClear(&measured.blades.upper);
+    measured.pivot.covariance_px2 *= kSurePx * kSurePx;
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.upper.moved.empty(), contrast < 0) << measured.blades.upper.moved;
+  }
+}
+
 // An oblique view parts clear edges as well.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
   Measured measured = WithMirroringBevelBelow();

@@ -23,6 +23,10 @@ struct SeenAlone {
   bool beyond_pivot = false;  // the blades differ by more than the pivot accounts for
 };
 
+// Whether light clearly falls at an edge, going outwards: no shadow's border does that, and what
+// lies further in is a line on the blade.
+bool IsSurelyBorder(const LocatedEdge& edge) { return IsClear(edge) && TypicalContrast(edge) < 0; }
+
 // Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
 // other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
 // however clear. Not where the pivot may account for the difference, unless it is as sure there; a
@@ -45,10 +49,12 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<RelocatedBlade> lower = LookWhereMirrored({view, pivot, blades->upper, line});
   const bool beyond = DifferBeyondPivot(pivot, *blades);
-  const bool upper_better =
-      IsBetter(upper, blades->upper, {!lower && LiesInwards(blades->upper, pivot), beyond});
-  const bool lower_better =
-      IsBetter(lower, blades->lower, {!upper && LiesInwards(blades->lower, pivot), beyond});
+  const bool upper_inwards = LiesInwards(blades->upper, pivot);
+  const bool lower_inwards = LiesInwards(blades->lower, pivot);
+  const bool upper_better = (upper_inwards || !IsSurelyBorder(blades->upper.edge)) &&
+                            IsBetter(upper, blades->upper, {!lower && upper_inwards, beyond});
+  const bool lower_better = (lower_inwards || !IsSurelyBorder(blades->lower.edge)) &&
+                            IsBetter(lower, blades->lower, {!upper && lower_inwards, beyond});
   if (upper_better && lower_better) return;
   if (upper_better) {
     Replace(*upper, kWhereMirrored, &blades->upper);
