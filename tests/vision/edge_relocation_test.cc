@@ -377,7 +377,7 @@ TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAHigherStepUnlessThePivotMayHavePar
 
 // At no shadow's border does light fall, going outwards: what is within is a line on the blade.
 TEST(RelocateUnlikeEdges, TakesNoClearEdgeAtWhichLightFallsToALineFurtherIn) {
-  constexpr double kAsidePx = 8, kContrast = 0.05, kSurePx = 0.3;
+  constexpr double kAsidePx = 8, kContrast = 0.1, kSurePx = 0.3;
   for (const double contrast : {kContrast, -kContrast}) {
     Measured measured{SceneWithMarkers()};
     measured.Misplace(&measured.blades.upper, kAsidePx, contrast);

@@ -110,8 +110,11 @@ double WidestBevel(const Survey& survey) {
 StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch& search) {
   constexpr int kApart = 2;  // px; nearer lines are the same
   constexpr double kAsClear = 0.75, kAsHigh = 0.75, kAsHighFalling = 0.5;  // of the line
+  constexpr double kStandsOut = 10;  // times what texture does, in which light falls everywhere
   const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
-  const auto falls_too = [&](std::size_t at) { return height < 0 && survey.map.height[at] < 0; };
+  const auto falls_too = [&](double step) {
+    return height < 0 && step < -kStandsOut * survey.map.background_response;
+  };
   const StepLine outer =
       FindBestLine(survey.map,
                    Scores(survey,
@@ -119,7 +122,7 @@ StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch
                             const int outwards = row - line.rows[Index(station)];
                             if (outwards <= kApart || outwards > widest) return kForbidden;
                             if (std::abs(survey.FromGuess(station, row)) > search.reach_px &&
-                                !falls_too(survey.map.At(station, row)))
+                                !falls_too(survey.map.height[survey.map.At(station, row)]))
                               return kForbidden;
                             if (FallsDeeper(survey.map, station, row, height)) return 1.0F;
                             return survey.map.clear[survey.map.At(station, row)];
@@ -127,7 +130,7 @@ StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch
                    search.bend);
   const bool clear = outer.score > kAsClear * line.score;
   const double outer_height = HeightUnder(survey.map, outer);
-  const double as_high = height < 0 && outer_height < 0 ? kAsHighFalling : kAsHigh;
+  const double as_high = falls_too(outer_height) ? kAsHighFalling : kAsHigh;
   return clear && std::abs(outer_height) > as_high * std::abs(height) ? outer : line;
 }
 

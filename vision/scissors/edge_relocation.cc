@@ -23,9 +23,15 @@ struct SeenAlone {
   bool beyond_pivot = false;  // the blades differ by more than the pivot accounts for
 };
 
-// Whether light clearly falls at an edge, going outwards: no shadow's border does that, and what
-// lies further in is a line on the blade.
-bool IsSurelyBorder(const LocatedEdge& edge) { return IsClear(edge) && TypicalContrast(edge) < 0; }
+// Whether light clearly falls at an edge, going outwards, and no faint line of the ground was
+// followed instead: no shadow's border does that, and what is seen further in is a line on the
+// blade.
+bool IsSurelyBorder(const LocatedEdge& edge, const std::optional<RelocatedBlade>& further_in) {
+  constexpr double kLeastHeight = 0.25;  // of the step further in
+  if (!IsClear(edge) || TypicalContrast(edge) >= 0) return false;
+  return !further_in ||
+         -TypicalContrast(edge) > kLeastHeight * std::abs(TypicalContrast(further_in->blade.edge));
+}
 
 // Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
 // other one puts it, further out, is the border: before it was a line on the blade, a bevel's,
@@ -51,9 +57,9 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const bool beyond = DifferBeyondPivot(pivot, *blades);
   const bool upper_inwards = LiesInwards(blades->upper, pivot);
   const bool lower_inwards = LiesInwards(blades->lower, pivot);
-  const bool upper_better = (upper_inwards || !IsSurelyBorder(blades->upper.edge)) &&
+  const bool upper_better = (upper_inwards || !IsSurelyBorder(blades->upper.edge, upper)) &&
                             IsBetter(upper, blades->upper, {!lower && upper_inwards, beyond});
-  const bool lower_better = (lower_inwards || !IsSurelyBorder(blades->lower.edge)) &&
+  const bool lower_better = (lower_inwards || !IsSurelyBorder(blades->lower.edge, lower)) &&
                             IsBetter(lower, blades->lower, {!upper && lower_inwards, beyond});
   if (upper_better && lower_better) return;
   if (upper_better) {
