@@ -39,6 +39,7 @@ LocatedBlade BladeOnRay(bool on_left, double end_px, double sigma_px, bool arc_s
   blade.end.point_px = PivotSeen().point_px + end_px * along;
   blade.end.along_sigma_px = sigma_px;
   blade.end.arc_seen = arc_seen;
+  blade.end.evidence = arc_seen ? 100 : 0;
   return blade;
 }
 
@@ -170,10 +171,21 @@ TEST(AgreeOnEnds, LeavesAShadowsArcAlsoBesideAnEndWithoutArc) {
   constexpr double kShadow = 28;  // px
   Blades blades{BladeOnRay(true, kLength, 20, false),
                 BladeOnRay(false, kLength + kShadow, 1, true)};
+  blades.lower.end.evidence = 0;
   blades.lower.rival_ends = {BladeOnRay(false, kLength, 1, true).end};
   blades.lower.rival_ends[0].evidence = 100;
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
   EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+}
+
+// Where nothing else is seen the end stays there, less surely.
+TEST(AgreeOnEnds, DoubtsAShadowsArc) {
+  constexpr double kLeastDoubt = 0.015 * kLength;  // px
+  Blades blades{BladeOnRay(true, kLength, 20, false), BladeOnRay(false, kLength, 1, true)};
+  blades.lower.end.evidence = 0;
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_GT(blades.lower.end.along_sigma_px, kLeastDoubt);
 }
 
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {

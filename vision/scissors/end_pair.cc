@@ -136,6 +136,15 @@ void DoubtBoth(const Comparison& both, Blades* blades) {
 // Whether an arc is seen across which the picture steps the other way than across the edge.
 bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
 
+// One arc in ten of that kind is the shadow's indeed, up to 6 % of the length off.
+void DoubtShadowsArc(const Pivot& pivot, LocatedBlade* blade) {
+  constexpr double kOff = 0.02;  // of the length, standard
+  DistalEnd& end = blade->end;
+  if (!IsShadows(end)) return;
+  end.along_sigma_px =
+      std::hypot(end.along_sigma_px, kOff * (end.point_px - pivot.point_px).norm());
+}
+
 constexpr double kMoreClearly = 1.5;  // times the evidence
 
 // Whether the shorter blade's tip fades into its ground. Nothing else makes a blade that much
@@ -182,6 +191,7 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
 
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   ChooseAlikeEnds(scale, pivot, blades);
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   const Comparison both = Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
