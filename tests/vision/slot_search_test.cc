@@ -52,6 +52,7 @@ void ExpectFound(double slot) {
       EXPECT_LT((found.slot->center_px - head.center_px).norm(), kClose * head.semi_major_px)
           << seed;
       EXPECT_NEAR(found.semi_major_px, head.semi_major_px, 0.2 * head.semi_major_px) << seed;
+      EXPECT_EQ(found.slot->bright, slot > 0) << seed;
     }
   }
 }

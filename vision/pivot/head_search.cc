@@ -211,8 +211,20 @@ bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
   return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < 1;
 }
 
+// Whether some of a rim shows about the ends of a head's slot.
+bool ShowsRim(const Screw& slotted, const HeadSearch& known) {
+  constexpr double kAside = 0.25, kSmaller = 0.8, kLarger = 1.3;  // of the slot's half length
+  const double radius_px = slotted.semi_major_px;
+  ScrewSearch search =
+      SearchForHead(known.scale, known.scene, slotted.center_px, kAside * radius_px);
+  search.min_semi_axis_px = kSmaller * radius_px;
+  search.max_semi_axis_px = kLarger * radius_px;
+  search.half_lit = true;
+  return FindHere(known, search).has_value();
+}
+
 // A head by its slot alone, where the blades put the pivot and about which the edges mirror each
-// other; the nearest to there.
+// other; the nearest to there. About one that mirrors the light its rim must show.
 std::optional<Screw> LookForSlot(const HeadSearch& known) {
   const auto off = [&](const Screw& screw) {
     return (screw.center_px - known.by_geometry.point_px).norm();
@@ -221,6 +233,7 @@ std::optional<Screw> LookForSlot(const HeadSearch& known) {
   for (const Screw& head : FindSlottedHeads(
            known.grey, known.scale.tone, SearchAllAbout(known.scale, known.scene, 0))) {
     if (!LiesWhereBladesTurn(head, known) || !MirrorNear(head, known)) continue;
+    if (head.slot->bright && !ShowsRim(head, known)) continue;
     if (!nearest || off(head) < off(*nearest)) nearest = head;
   }
   return nearest;

@@ -17,6 +17,7 @@ struct ScrewSlot {
   Eigen::Vector2d center_px{0, 0};
   Eigen::Matrix2d covariance_px2;  // much larger along the slot than across it
   bool ends_seen = false;          // both, at the rim
+  bool bright = false;             // mirrors the light, as borders of nuts and streaks may
 };
 
 // How far off the centre slots are cut, standard, of the head's radius: across, and along, where

@@ -120,7 +120,9 @@ std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
                                     const ScrewSearch& search) {
   std::vector<Screw> heads;
   AddSlottedHeads(grey, tone, search, &heads);
+  const std::size_t dark = heads.size();
   AddSlottedHeads(~grey, NegativeOf(tone), search, &heads);
+  for (std::size_t i = dark; i < heads.size(); ++i) heads[i].slot->bright = true;
   return heads;
 }
 
