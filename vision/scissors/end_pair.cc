@@ -191,21 +191,20 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
 
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   ChooseAlikeEnds(scale, pivot, blades);
-  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
-  const Comparison both = Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
+  const auto compare = [&] {
+    return Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
+  };
+  const Comparison both = compare();
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
-  if (!scale.sheet) return;
   const bool upper_seen = blades->upper.end.arc_seen, lower_seen = blades->lower.end.arc_seen;
-  if (ShorterOneFades(both, *blades)) {
-    Follow(both, both.gap < 0, blades);
-  } else if (!blades->ends_contradict) {
-    Fuse(both, blades);
-  } else if (upper_seen != lower_seen) {
-    Follow(both, lower_seen, blades);
-  } else {
-    DoubtBoth(both, blades);
+  if (scale.sheet && ShorterOneFades(both, *blades)) return Follow(both, both.gap < 0, blades);
+  if (scale.sheet && blades->ends_contradict) {
+    if (upper_seen == lower_seen) return DoubtBoth(both, blades);
+    return Follow(both, lower_seen, blades);
   }
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
+  if (scale.sheet) Fuse(compare(), blades);
 }
 
 }  // namespace bladecurve
