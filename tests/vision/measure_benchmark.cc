@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "path_distance.h"
 #include "vision/measure.h"
 #include "vision/photo/photo_codec.h"
 #include "vision/render/render.h"
@@ -60,22 +61,6 @@ std::vector<Look> Looks() {
   looks[5].scene.light.shadow_blur_mm = 0.2;
   looks[5].scene.light.glint = 1.2;
   return looks;
-}
-
-double DistanceToPath(const Vector2d& point, const std::vector<Vector2d>& path) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vector2d step = path[i] - path[i - 1];
-    const double t = std::clamp((point - path[i - 1]).dot(step) / step.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (point - path[i - 1] - t * step).norm());
-  }
-  return least;
-}
-
-double RmsToPath(const std::vector<Vector2d>& points, const std::vector<Vector2d>& path) {
-  double squares = 0;
-  for (const Vector2d& point : points) squares += std::pow(DistanceToPath(point, path), 2);
-  return std::sqrt(squares / static_cast<double>(points.size()));
 }
 
 // Of several runs the quickest.

@@ -12,7 +12,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -20,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "path_distance.h"
 #include "process_folder.h"
 #include "vision/measure.h"
 #include "vision/photo/photo.h"
@@ -260,26 +260,18 @@ std::optional<PhotoMeasurement> MeasureUnlessRefused(const cv::Mat& picture) {
 constexpr double kSigmas = 3;
 constexpr double kResamplingPx = 0.1;
 
-double DistanceToPath(const Vector2d& point, const std::vector<Vector2d>& path) {
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Vector2d step = path[i] - path[i - 1];
-    const double t = std::clamp((point - path[i - 1]).dot(step) / step.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (point - path[i - 1] - t * step).norm());
-  }
-  return least;
-}
-
-// Of the part of `points` that lies beside the path, not beyond its ends, root mean square.
-double OffPath(const std::vector<Vector2d>& points, const std::vector<Vector2d>& path) {
-  double squares = 0, count = 0;
-  for (const Vector2d& p : points) {
-    if ((p - path.front()).dot(path[1] - path.front()) < 0) continue;
-    if ((p - path.back()).dot(path[path.size() - 2] - path.back()) < 0) continue;
-    squares += std::pow(DistanceToPath(p, path), 2);
-    ++count;
-  }
-  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::infinity();
+// Those that lie beside the path, not beyond its ends.
+std::vector<Vector2d> Beside(const std::vector<Vector2d>& path, std::vector<Vector2d> points) {
+  const Vector2d from_front = path[1] - path.front();
+  const Vector2d from_back = path[path.size() - 2] - path.back();
+  points.erase(std::remove_if(points.begin(),
+                              points.end(),
+                              [&](const Vector2d& p) {
+                                return (p - path.front()).dot(from_front) < 0 ||
+                                       (p - path.back()).dot(from_back) < 0;
+                              }),
+               points.end());
+  return points;
 }
 
 void ExpectSame(const PhotoMeasurement& before,
@@ -297,7 +289,7 @@ void ExpectSame(const PhotoMeasurement& before,
   std::vector<Vector2d> edge;
   for (const Vector2d& p : before.upper_edge_px) edge.push_back(change.moved(p, size));
   EXPECT_LT(
-      OffPath(after.upper_edge_px, edge),
+      RmsToPath(Beside(edge, after.upper_edge_px), edge),
       kSigmas * std::hypot(change.factor * before.upper_edge_sigma_px, after.upper_edge_sigma_px) +
           kResamplingPx);
 }

@@ -159,8 +159,8 @@ TEST(FindPivot, LeavesAFaintHeadAsideForTheOneAboutWhichTheEdgesMirrorEachOther)
   EXPECT_GT(off_px(HeadAside(measured, kFaintHead + 1)), kFarPx);  // it is seen: the edges err
   Screw in_line = HeadAside(measured, kFaintHead - 1);
   in_line.center_px = measured.truth.screw_px - kFarPx * measured.truth.axis_px;
-  EXPECT_LT(off_px(in_line),
-            kClosePx);  // the edges have nothing against it, but another is clearer
+  // The edges have nothing against it, but the true one is clearer.
+  EXPECT_LT(off_px(in_line), kClosePx);
 }
 
 constexpr int kFractionBits = 6;  // of a pixel, in drawings

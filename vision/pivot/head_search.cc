@@ -233,8 +233,8 @@ std::optional<Screw> LookForSlot(const HeadSearch& known) {
   for (const Screw& head : FindSlottedHeads(
            known.grey, known.scale.tone, SearchAllAbout(known.scale, known.scene, 0))) {
     if (!LiesWhereBladesTurn(head, known) || !MirrorNear(head, known)) continue;
-    if (head.slot->bright && !ShowsRim(head, known)) continue;
-    if (!nearest || off(head) < off(*nearest)) nearest = head;
+    if (nearest && off(head) >= off(*nearest)) continue;
+    if (!head.slot->bright || ShowsRim(head, known)) nearest = head;
   }
   return nearest;
 }

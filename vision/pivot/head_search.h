@@ -30,9 +30,10 @@ struct HeadSearch {
 };
 
 // The head of the screw or rivet. How obliquely it is seen the markers say, where there are any.
-// Where a faint head leaves the edges far unlike, one beyond doubt elsewhere is taken about which
-// they mirror each other; where none is seen, also a half-lit one about which they do, or the faint
-// one itself, if they do so as near to it as it is known.
+// A faint head in an unknown view counts near where the blades put the pivot, and is left for a
+// clearer one elsewhere; where it leaves the edges far unlike, for any about which they mirror each
+// other. Where none is seen, also a half-lit one about which they do, or the faint one itself, if
+// they do so as near to it as it is known.
 [[nodiscard]] std::optional<Screw> FindHead(const HeadSearch& search);
 
 }  // namespace bladecurve

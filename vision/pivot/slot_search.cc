@@ -41,7 +41,7 @@ cv::Mat DarkLines(const cv::Mat& grey, double widest_px, double darker) {
 
 // A straight bar: its middle, and half its length.
 struct Bar {
-  cv::Point2f middle;
+  Vector2d middle;
   double half_length = 0;
 };
 
@@ -52,7 +52,7 @@ std::optional<Bar> BarOf(const std::vector<cv::Point>& outline) {
   const double width = std::min(box.size.width, box.size.height) + 1;
   if (length < kSlender * width) return std::nullopt;
   if (PixelsWithin(outline) < kFilled * length * width) return std::nullopt;
-  return Bar{box.center, 0.5 * length};
+  return Bar{{box.center.x, box.center.y}, 0.5 * length};
 }
 
 std::vector<Bar> BarsIn(const cv::Mat& mask) {
@@ -76,41 +76,35 @@ Screw HeadOf(const ScrewSlot& slot, double radius_px) {
   return screw;
 }
 
-// Heads by their dark slots.
-void AddSlottedHeads(const cv::Mat& grey,
-                     const ToneCurve& tone,
-                     const ScrewSearch& search,
-                     std::vector<Screw>* heads) {
+// Dark bars as long as heads of the searched sizes are wide, in the photograph's pixels. grey: the
+// part of it, or its negative.
+std::vector<Bar> BarsAcrossHeads(const cv::Mat& grey,
+                                 const ScaledWindow& part,
+                                 const ScrewSearch& search) {
   constexpr double kFaint = 0.12, kDeep = 0.35;    // darker; deep slots may touch faint lines
   constexpr double kWidest = 0.35;                 // of the largest head's radius
   constexpr double kShorter = 0.8, kLonger = 1.1;  // than heads are wide
-  const ScaledWindow part = PartOf(grey, search);
-  if (part.grey.empty()) return;
+  std::vector<Bar> bars;
   for (const double darker : {kFaint, kDeep}) {
-    for (const Bar& bar :
-         BarsIn(DarkLines(part.grey, kWidest * search.max_semi_axis_px / part.scale, darker))) {
-      const double radius_px = part.scale * bar.half_length;
-      const Vector2d middle_px = part.origin + part.scale * Vector2d(bar.middle.x, bar.middle.y);
-      if (radius_px < kShorter * search.min_semi_axis_px ||
-          radius_px > kLonger * search.max_semi_axis_px ||
-          (middle_px - search.guess_px).norm() > search.radius_px)
-        continue;
-      const std::optional<ScrewSlot> slot = FindSlot(grey, tone, middle_px, radius_px);
-      if (slot && slot->ends_seen) heads->push_back(HeadOf(*slot, radius_px));
+    for (Bar bar :
+         BarsIn(DarkLines(grey, kWidest * search.max_semi_axis_px / part.scale, darker))) {
+      bar = {part.origin + part.scale * bar.middle, part.scale * bar.half_length};
+      if (bar.half_length >= kShorter * search.min_semi_axis_px &&
+          bar.half_length <= kLonger * search.max_semi_axis_px &&
+          (bar.middle - search.guess_px).norm() <= search.radius_px)
+        bars.push_back(bar);
     }
   }
+  return bars;
 }
 
-// Of a picture's negative in which light is what it was once divided by: a bright bar is as dark
-// there as it is brighter than its surroundings, on bright metal too.
-ToneCurve NegativeOf(const ToneCurve& tone) {
-  ToneCurve negative = tone;
-  for (std::size_t grey = 0; grey < negative.linear.size(); ++grey) {
-    const float light = tone.linear[tone.linear.size() - 1 - grey];
-    negative.linear[grey] =
-        static_cast<float>(kDarkestLight) / std::max(static_cast<float>(kDarkestLight), light);
-  }
-  return negative;
+// Of a picture in which light is what it was once divided by: a bright bar is as dark there as it
+// is brighter than its surroundings, on bright metal too.
+ToneCurve Reciprocal(const ToneCurve& tone) {
+  constexpr auto kDarkest = static_cast<float>(kDarkestLight);
+  ToneCurve reciprocal = tone;
+  for (float& light : reciprocal.linear) light = kDarkest / std::max(kDarkest, light);
+  return reciprocal;
 }
 
 }  // namespace
@@ -118,11 +112,19 @@ ToneCurve NegativeOf(const ToneCurve& tone) {
 std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
                                     const ToneCurve& tone,
                                     const ScrewSearch& search) {
+  const ScaledWindow part = PartOf(grey, search);
   std::vector<Screw> heads;
-  AddSlottedHeads(grey, tone, search, &heads);
-  const std::size_t dark = heads.size();
-  AddSlottedHeads(~grey, NegativeOf(tone), search, &heads);
-  for (std::size_t i = dark; i < heads.size(); ++i) heads[i].slot->bright = true;
+  if (part.grey.empty()) return heads;
+  for (const bool bright : {false, true}) {
+    const cv::Mat dark_slots = bright ? cv::Mat(~part.grey) : part.grey;
+    const ToneCurve slot_tone = bright ? Reciprocal(tone) : tone;
+    for (const Bar& bar : BarsAcrossHeads(dark_slots, part, search)) {
+      const std::optional<ScrewSlot> slot = FindSlot(grey, slot_tone, bar.middle, bar.half_length);
+      if (!slot || !slot->ends_seen) continue;
+      heads.push_back(HeadOf(*slot, bar.half_length));
+      heads.back().slot->bright = bright;
+    }
+  }
   return heads;
 }
 

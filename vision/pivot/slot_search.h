@@ -11,8 +11,9 @@
 namespace bladecurve {
 
 // Heads of which nothing but the slot shows, as of flush screws and against the light: straight
-// dark bars as long as heads of the searched sizes are wide, both ends of which are seen. Lines of
-// joints and engraved letters may look like them: something else must speak for a head.
+// bars, dark or bright, as long as heads of the searched sizes are wide, both ends of which are
+// seen. Lines of joints and engraved letters may look like them: something else must speak for a
+// head.
 [[nodiscard]] std::vector<Screw> FindSlottedHeads(const cv::Mat& grey,
                                                   const ToneCurve& tone,
                                                   const ScrewSearch& search);

@@ -26,11 +26,10 @@ struct SeenAlone {
 // Whether light clearly falls at an edge, going outwards, and no faint line of the ground was
 // followed instead: no shadow's border does that, and what is seen further in is a line on the
 // blade.
-bool IsSurelyBorder(const LocatedEdge& edge, const std::optional<RelocatedBlade>& further_in) {
+bool IsSurelyBorder(const LocatedEdge& edge, const LocatedEdge& further_in) {
   constexpr double kLeastHeight = 0.25;  // of the step further in
-  if (!IsClear(edge) || TypicalContrast(edge) >= 0) return false;
-  return !further_in ||
-         -TypicalContrast(edge) > kLeastHeight * std::abs(TypicalContrast(further_in->blade.edge));
+  return IsClear(edge) &&
+         -TypicalContrast(edge) > kLeastHeight * std::abs(TypicalContrast(further_in));
 }
 
 // Whether `blade` is to be taken from where it was found. An edge that alone is seen where the
@@ -55,12 +54,13 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<RelocatedBlade> lower = LookWhereMirrored({view, pivot, blades->upper, line});
   const bool beyond = DifferBeyondPivot(pivot, *blades);
-  const bool upper_inwards = LiesInwards(blades->upper, pivot);
-  const bool lower_inwards = LiesInwards(blades->lower, pivot);
-  const bool upper_better = (upper_inwards || !IsSurelyBorder(blades->upper.edge, upper)) &&
-                            IsBetter(upper, blades->upper, {!lower && upper_inwards, beyond});
-  const bool lower_better = (lower_inwards || !IsSurelyBorder(blades->lower.edge, lower)) &&
-                            IsBetter(lower, blades->lower, {!upper && lower_inwards, beyond});
+  const auto is_better = [&](const auto& found, const LocatedBlade& blade, bool alone) {
+    const bool outside = LiesInwards(blade, pivot);
+    if (found && !outside && IsSurelyBorder(blade.edge, found->blade.edge)) return false;
+    return IsBetter(found, blade, {alone && outside, beyond});
+  };
+  const bool upper_better = is_better(upper, blades->upper, !lower);
+  const bool lower_better = is_better(lower, blades->lower, !upper);
   if (upper_better && lower_better) return;
   if (upper_better) {
     Replace(*upper, kWhereMirrored, &blades->upper);
