@@ -41,53 +41,35 @@ std::vector<double> OctaveRadii(const ScrewSearch& search) {
   return radii;
 }
 
-using Octaves = std::vector<std::unique_ptr<const Octave>>;
-
-// A place in one of the octaves that may be a rim.
-struct Suspect {
-  std::size_t octave;
-  RimCandidate candidate;
-};
-
-// Those of the best score first.
-std::vector<Suspect> SuspectsIn(const Octaves& octaves) {
-  const auto candidates = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
-    return octaves[static_cast<std::size_t>(i)]->Candidates();
-  });
-  std::vector<Suspect> suspects;
-  for (std::size_t i = 0; i < octaves.size(); ++i) {
-    for (const RimCandidate& candidate : candidates[i]) suspects.push_back({i, candidate});
-  }
-  std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& a, const Suspect& b) {
-    return a.candidate.score > b.candidate.score;
-  });
-  return suspects;
-}
-
-// What is found near the candidates, octave by octave. What scores far less than a head beyond
-// doubt is no other rim of it.
-std::vector<std::vector<FoundRim>> JudgeAll(const Octaves& octaves) {
+// What is found near the candidates of an octave, best first. What scores less than least_score is
+// not looked at: far less than a head beyond doubt, it is no other rim of it.
+std::vector<FoundRim> JudgeAll(const Octave& octave, double* least_score) {
   constexpr double kRivalScore = 0.7;  // of the head's
   constexpr std::size_t kAtOnce = 4;   // whatever the number of cores, so that results are the same
-  const std::vector<Suspect> suspects = SuspectsIn(octaves);
-  std::vector<std::vector<FoundRim>> found(octaves.size());
-  double least_score = 0;
-  for (std::size_t first = 0; first < suspects.size(); first += kAtOnce) {
-    if (suspects[first].candidate.score < least_score) break;
-    const std::size_t count = std::min(kAtOnce, suspects.size() - first);
+  const std::vector<RimCandidate> candidates = octave.Candidates();
+  std::vector<FoundRim> found;
+  for (std::size_t first = 0; first < candidates.size(); first += kAtOnce) {
+    if (candidates[first].score < *least_score) break;
+    const std::size_t count = std::min(kAtOnce, candidates.size() - first);
     const auto rims = ParallelMap(static_cast<int>(count), [&](int i) {
-      const Suspect& suspect = suspects[first + static_cast<std::size_t>(i)];
-      return octaves[suspect.octave]->Judge(suspect.candidate.rim);
+      return octave.Judge(candidates[first + static_cast<std::size_t>(i)].rim);
     });
     for (std::size_t i = 0; i < count; ++i) {
-      const auto& [octave, candidate] = suspects[first + i];
       if (!rims[i]) continue;
-      found[octave].push_back(*rims[i]);
+      found.push_back(*rims[i]);
       if (rims[i]->evidence > kBeyondDoubt)
-        least_score = std::max(least_score, kRivalScore * candidate.score);
+        *least_score = std::max(*least_score, kRivalScore * candidates[first + i].score);
     }
   }
+  PutBestFirst(found);
   return found;
+}
+
+// Whether it is a head of which all of the rim was followed: neither other sizes nor a second look
+// would change it.
+bool IsUnmistakable(const FoundRim& rim) {
+  constexpr double kUnmistakable = 25, kLeastThird = 0.75;
+  return rim.evidence > kUnmistakable && rim.fit.third_support > kLeastThird && !rim.one_sided;
 }
 
 // Whether polishing may make a rim better than the best ones of all octaves: than others by its
@@ -95,7 +77,7 @@ std::vector<std::vector<FoundRim>> JudgeAll(const Octaves& octaves) {
 bool MayGain(const FoundRim& rim, const std::vector<FoundRim>& best) {
   constexpr double kPromising = -2;  // evidence from which on a second look may find a head
   constexpr double kMostGain = 15;   // of evidence or preference
-  return rim.evidence > kPromising &&
+  return rim.evidence > kPromising && !IsUnmistakable(rim) &&
          std::none_of(best.begin(), best.end(), [&](const FoundRim& other) {
            return rim.evidence < other.evidence - kMostGain ||
                   (rim.preference < other.preference - kMostGain &&
@@ -129,15 +111,16 @@ bool OfOneHead(const RimEllipse& a, const RimEllipse& b) {
 }
 
 std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
-  const std::vector<double> radii = OctaveRadii(search);
-  const Octaves octaves = ParallelMap(static_cast<int>(radii.size()), [&](int i) {
-    return std::make_unique<const Octave>(grey, search, radii[static_cast<std::size_t>(i)]);
-  });
-  std::vector<std::vector<FoundRim>> judged = JudgeAll(octaves);
+  std::vector<std::unique_ptr<const Octave>> octaves;
+  std::vector<std::vector<FoundRim>> judged;
   std::vector<FoundRim> best;
-  for (std::vector<FoundRim>& rims : judged) {
-    PutBestFirst(rims);
-    if (!rims.empty()) best.push_back(rims.front());
+  double least_score = 0;
+  for (const double radius : OctaveRadii(search)) {
+    octaves.push_back(std::make_unique<const Octave>(grey, search, radius));
+    judged.push_back(JudgeAll(*octaves.back(), &least_score));
+    if (judged.back().empty()) continue;
+    best.push_back(judged.back().front());
+    if (IsUnmistakable(best.back())) break;
   }
   const auto rims = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
     const auto octave = static_cast<std::size_t>(i);
