@@ -144,11 +144,12 @@ double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
          0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
 }
 
+constexpr double kLeastOdds = 3;  // 20 to 1
+
 // Whether a head of which little shows lies near enough to there. In a known view the edges say
 // more, by mirroring each other about it or not.
 bool IsCredibleThere(const Screw& screw, const HeadSearch& known) {
-  constexpr double kLeast = 3;  // 20 to 1
-  return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeast;
+  return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeastOdds;
 }
 
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
@@ -261,20 +262,23 @@ std::vector<ScrewSearch> PiecesOf(const ScrewSearch& search) {
 // but less so than heads; about few of them the edges mirror each other.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   // Where the view is known, edges mirror each other about few false heads.
-  constexpr double kUnmistakable = 25, kFaint = 5, kFaintInKnownView = 3.5;
-  const double faintest = known.scale.sheet ? kFaintInKnownView : kFaint;
+  constexpr double kUnmistakable = 25, kFaint = 5, kFaintest = 3.5;
+  const double faint = known.scale.sheet ? kFaintest : kFaint;
   const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
   if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
   const auto is_sure = [&](const Screw& screw) {
-    if (screw.evidence > kFaintHead || MirrorNear(screw, known)) return true;
-    return screw.slot && screw.slot->ends_seen && MayMirrorAbout(screw, known);
+    const bool seen = screw.evidence > faint;
+    if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
+    const bool slotted = screw.slot && screw.slot->ends_seen;
+    return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
+           MayMirrorAbout(screw, known);
   };
   std::optional<Screw> clearest;
   const auto is_clearer = [&](const Screw& screw) {
     return !clearest || screw.evidence > clearest->evidence;
   };
   for (const std::optional<Screw>& screw :
-       FindInEach(known, PiecesOf(SearchAllAbout(known.scale, known.scene, faintest)))) {
+       FindInEach(known, PiecesOf(SearchAllAbout(known.scale, known.scene, kFaintest)))) {
     if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
   }
   if (clearest) return clearest;
