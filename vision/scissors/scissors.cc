@@ -31,8 +31,7 @@ Blades LocateAndTrim(const BladeView& view, StageLog* log) {
   Blades blades{{true, std::move(edges.upper), {}, {}, {}},
                 {false, std::move(edges.lower), {}, {}, {}},
                 false};
-  TrimToFree(view, &blades.upper);
-  TrimToFree(view, &blades.lower);
+  ParallelFor(2, [&](int blade) { TrimToFree(view, blade == 0 ? &blades.upper : &blades.lower); });
   log->Ran("edges", "full resolution along the blades only");
   return blades;
 }
