@@ -14,8 +14,8 @@ namespace bladecurve {
 // Whether both may be rims of the same head, or one and the same.
 [[nodiscard]] bool OfOneHead(const RimEllipse& a, const RimEllipse& b);
 
-// All rims of all sizes within the search: those of the most evident head, the preferred one first
-// and with that evidence; then the others.
+// Rims within the search, of sizes from the smallest up to those of a head beyond mistake: the most
+// evident head's, the preferred one first and with that evidence; then the others.
 [[nodiscard]] std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search);
 
 }  // namespace bladecurve
