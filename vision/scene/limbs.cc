@@ -111,18 +111,19 @@ int LimbEnd(const Outline& outline, int from, int to, Way way, const Vector2d& d
   constexpr double kLimb = 0.5;  // of the furthest; ragged outlines go to and fro by less
   const Vector2d crotch = outline.At(from), other_crotch = outline.At(to);
   const int sign = way == Way::kOn ? 1 : -1, steps = outline.Wrap(sign * (to - from));
-  double furthest = 0;
+  double furthest_px2 = 0;
   for (int k = 0; k <= steps; ++k) {
     const Vector2d offset = outline.At(from + sign * k) - crotch;
-    if (offset.dot(direction) > 0) furthest = std::max(furthest, offset.norm());
+    if (offset.dot(direction) > 0) furthest_px2 = std::max(furthest_px2, offset.squaredNorm());
   }
   int best = -1;
-  double reach = 0;
+  double reach_px2 = 0;
   for (int k = 0; k <= steps; ++k) {
     const Vector2d at = outline.At(from + sign * k), offset = at - crotch;
-    if (reach >= kLimb * furthest && (at - other_crotch).dot(direction) <= 0) break;
-    if (offset.dot(direction) <= 0 || offset.norm() <= reach) continue;
-    reach = offset.norm();
+    const bool past_half = reach_px2 >= kLimb * kLimb * furthest_px2;
+    if (past_half && (at - other_crotch).dot(direction) <= 0) break;
+    if (offset.dot(direction) <= 0 || offset.squaredNorm() <= reach_px2) continue;
+    reach_px2 = offset.squaredNorm();
     best = outline.Wrap(from + sign * k);
   }
   return best;
