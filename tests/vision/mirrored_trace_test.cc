@@ -169,9 +169,9 @@ TEST(FindMirroredTrace, TakesNoLineThatLeavesTheEdgesEnd) {
   EXPECT_FALSE(TakesLineBeside(14, 1, false));
 }
 
-TEST(FindMirroredTrace, LeavesAClearEdgeForNoLineAlongHalfOfTheBlade) {
+TEST(FindMirroredTrace, LeavesNoClearEdge) {
   EXPECT_TRUE(TakesLineBeside(9, 0.5, false));
-  EXPECT_FALSE(TakesLineBeside(9, 0.5, true));
+  EXPECT_FALSE(TakesLineBeside(9, 1, true));
 }
 
 }  // namespace

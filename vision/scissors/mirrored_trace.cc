@@ -240,11 +240,6 @@ double NextBest(const std::vector<Support>& supports, std::ptrdiff_t best) {
   return next;
 }
 
-// An edge that is clear by itself is left for a line that nearly all of the blade shows.
-Support DemandBeside(const LocatedEdge& inner) {
-  return IsClear(inner) ? Support{16, 7} : Support{8, 4};
-}
-
 // A trace as it is seen.
 struct SeenTrace {
   std::vector<SeenPart> parts;
@@ -261,7 +256,8 @@ std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
   constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
   constexpr double kClearly = 2;                       // times the next best
   constexpr double kUsualBlurPx = 0.8;
-  const Support demand = DemandBeside(inner.edge);
+  const Support demand{8, 4};
+  if (IsClear(inner.edge)) return std::nullopt;
   const double blur_px = std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3);  // and the pixel's box
   const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();
   const auto farthest = static_cast<int>((kOfDifference * difference_px + kNearestPx) / kStepPx);
