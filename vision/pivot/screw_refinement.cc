@@ -55,8 +55,7 @@ struct RefinedRim {
 RimFitOptions PlainOptions(double radius) {
   const double half_px = std::clamp(0.35 * radius, 3.0, 6.0);
   RimFitOptions options{.first_half_px = half_px, .last_half_px = half_px, .flat_window = true};
-  options.most_profiles =
-      200;  // of larger heads more than 1 px apart: nearer, they are alike by the blur
+  options.most_profiles = 200;  // 1 px apart at 32 px of radius; nearer, they are alike by the blur
   options.iterations = 8;
   options.converged_px = 0.005;
   options.hopeless_support = 0;
