@@ -41,18 +41,31 @@ std::vector<double> OctaveRadii(const ScrewSearch& search) {
   return radii;
 }
 
+// An octave, and where in it rims may be.
+struct SearchedOctave {
+  std::unique_ptr<const Octave> octave;
+  std::vector<RimCandidate> candidates;
+};
+
+SearchedOctave Look(const cv::Mat& grey, const ScrewSearch& search, double min_radius_px) {
+  auto octave = std::make_unique<const Octave>(grey, search, min_radius_px);
+  std::vector<RimCandidate> candidates = octave->Candidates();
+  return {std::move(octave), std::move(candidates)};
+}
+
 // What is found near the candidates of an octave, best first. What scores less than least_score is
 // not looked at: far less than a head beyond doubt, it is no other rim of it.
-std::vector<FoundRim> JudgeAll(const Octave& octave, double* least_score) {
+std::vector<FoundRim> JudgeAll(const SearchedOctave& searched, double* least_score) {
   constexpr double kRivalScore = 0.7;  // of the head's
   constexpr std::size_t kAtOnce = 4;   // whatever the number of cores, so that results are the same
-  const std::vector<RimCandidate> candidates = octave.Candidates();
+  const std::vector<RimCandidate>& candidates = searched.candidates;
   std::vector<FoundRim> found;
   for (std::size_t first = 0; first < candidates.size(); first += kAtOnce) {
     if (candidates[first].score < *least_score) break;
     const std::size_t count = std::min(kAtOnce, candidates.size() - first);
     const auto rims = ParallelMap(static_cast<int>(count), [&](int i) {
-      return octave.Judge(candidates[first + static_cast<std::size_t>(i)].rim);
+      const RimCandidate& candidate = searched.candidates[first + static_cast<std::size_t>(i)];
+      return searched.octave->Judge(candidate.rim);
     });
     for (std::size_t i = 0; i < count; ++i) {
       if (!rims[i]) continue;
@@ -111,20 +124,26 @@ bool OfOneHead(const RimEllipse& a, const RimEllipse& b) {
 }
 
 std::vector<FoundRim> FindRims(const cv::Mat& grey, const ScrewSearch& search) {
-  std::vector<std::unique_ptr<const Octave>> octaves;
+  const std::vector<double> radii = OctaveRadii(search);
+  const auto look = [&](std::size_t i) { return Look(grey, search, radii[i]); };
+  std::vector<SearchedOctave> octaves;
+  if (UsableThreads() > 1) {  // all at once take no longer than the first
+    octaves = ParallelMap(static_cast<int>(radii.size()),
+                          [&](int i) { return look(static_cast<std::size_t>(i)); });
+  }
   std::vector<std::vector<FoundRim>> judged;
   std::vector<FoundRim> best;
   double least_score = 0;
-  for (const double radius : OctaveRadii(search)) {
-    octaves.push_back(std::make_unique<const Octave>(grey, search, radius));
-    judged.push_back(JudgeAll(*octaves.back(), &least_score));
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (i == octaves.size()) octaves.push_back(look(i));
+    judged.push_back(JudgeAll(octaves[i], &least_score));
     if (judged.back().empty()) continue;
     best.push_back(judged.back().front());
     if (IsUnmistakable(best.back())) break;
   }
-  const auto rims = ParallelMap(static_cast<int>(octaves.size()), [&](int i) {
+  const auto rims = ParallelMap(static_cast<int>(judged.size()), [&](int i) {
     const auto octave = static_cast<std::size_t>(i);
-    return Polished(*octaves[octave], std::move(judged[octave]), best);
+    return Polished(*octaves[octave].octave, std::move(judged[octave]), best);
   });
   std::vector<FoundRim> all;
   for (const std::vector<FoundRim>& octave : rims)
