@@ -162,10 +162,7 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   constexpr double kSeen = 0.6;   // ambiguity; cloth has lines of more
   const auto [inner, other] = InnerOne(pivot, blades);
   const MirrorLine line = LineBetween(view, pivot, *blades);
-  if (&inner == &blades->lower) {
-    if (!IsClear(inner.edge)) BorrowInnerOne(view, line, pivot, blades);
-    return;
-  }
+  if (&inner == &blades->lower) return BorrowInnerOne(view, line, pivot, blades);
   const MirroredBladeSearch search{view, pivot, other, line};
   std::optional<RelocatedBlade> found = LookWhereMirrored(search);
   if (!found || found->blade.edge.ambiguity > kSeen) return;
