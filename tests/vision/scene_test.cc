@@ -444,6 +444,19 @@ TEST(SceneFinder, RefusesTwoPairsOfScissors) {
   EXPECT_EQ(ReasonFor(two), "several_scissors");
 }
 
+// It could not be measured, so that it is not meant; nor are lines that cross at a picture's
+// border.
+TEST(SceneFinder, TakesTheWholePairBesideOneWhoseBladesRunOut) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
+  const double tip = photo.truth.upper.end_px.x();
+  const int seen = static_cast<int>(pivot.x() + 0.95 * (tip - pivot.x()));
+  cv::Mat runs_out(photo.bgr.size(), photo.bgr.type(), cv::mean(photo.bgr.col(0))), two;
+  photo.bgr.colRange(0, seen).copyTo(runs_out.colRange(runs_out.cols - seen, runs_out.cols));
+  cv::vconcat(photo.bgr, runs_out, two);
+  EXPECT_EQ(ReasonFor(two), "");
+}
+
 // In the sun each blade lies beside its shadow: four limbs.
 TEST(SceneFinder, TakesNoShadowOfABladeForTheOtherBlade) {
   constexpr std::uint64_t kSeed = 12000194;  // gold blades 20 degrees open on wood

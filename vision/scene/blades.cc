@@ -307,9 +307,10 @@ std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Ma
 
 double Likelihood(const BladePair& pair) {
   constexpr double kCutOff = 0.5;
-  const bool whole = !pair.first.cut_off && !pair.second.cut_off;
-  return (whole ? 1 : kCutOff) * pair.quality;
+  return (RunsOut(pair) ? kCutOff : 1) * pair.quality;
 }
+
+bool RunsOut(const BladePair& pair) { return pair.first.cut_off || pair.second.cut_off; }
 
 double TurnAtJoint(const BladePair& pair) {
   const auto bisector = [&](const Vector2d& a, const Vector2d& b) {

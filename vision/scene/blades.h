@@ -45,6 +45,9 @@ void ApplyGrade(double grade, const char* doubt, BladePair* pair);
 // other end of them are the likelier reading.
 [[nodiscard]] double Likelihood(const BladePair& pair);
 
+// Whether a blade runs out of the picture.
+[[nodiscard]] bool RunsOut(const BladePair& pair);
+
 // Between the bisector of the blades and that of the shanks, rad. 0.15 at most if they lie in line,
 // for handles of unlike size and shanks that the frame cuts; 0.4 to 0.7 where the blades are set at
 // an angle, as those of Lister's scissors. 0 where a shank is seen for less than a blade's length.

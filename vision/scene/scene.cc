@@ -164,13 +164,13 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
             WhatHintsSay(hints));
   }
   const BladePair& pair = ladder.best.pair;
-  if (pair.first.cut_off || pair.second.cut_off) {
+  if (RunsOut(pair)) {
     throw Refused(Reason::kBladesNotVisible,
                   std::string("scene: a blade runs out of ") + WhereLooked(hints) +
                       "; both tips must be inside it");
   }
-  // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71; a mask may lose one
-  // of them in part. Shanks reach 0.94 both.
+  // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71; a mask may lose
+  // one of them in part. Shanks reach 0.94 both.
   constexpr double kTapers = 0.85;
   const double taper = std::min(pair.first.taper, pair.second.taper);
   if (pair.shanks_run_out && taper > kTapers && !hints.tips_direction) {

@@ -77,13 +77,16 @@ bool ShareTip(const Candidate& a, const Candidate& b) {
 }
 
 // Whether `c` shows a second pair of scissors beside the best: as good a one elsewhere, or a
-// poorer one that is a thing of its own, and no texture.
+// poorer one that is a thing of its own, and no texture. Beside a whole one that is beyond doubt,
+// one whose blades run out of the picture is not meant; lines of a cutting mat that cross at the
+// picture's border look like that.
 bool IsSecondPair(const Candidate& c, const Candidate& best) {
   constexpr double kLikely = 0.3, kBeyondDoubt = 0.85;  // quality
   constexpr double kSmallest = 0.4, kFaintest = 0.2;    // of the best
   const double apart_px =
       (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
   if (apart_px <= FullSize(best) || ShareTip(c, best)) return false;
+  if (best.pair.quality > kSurelyScissors && RunsOut(c.pair) && !RunsOut(best.pair)) return false;
   const bool seen_alike =
       c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best.method;
   if (best.pair.quality > kSurelyScissors && (seen_alike || IsOftenSeen(c))) return true;
@@ -148,7 +151,7 @@ LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* l
 // Whether blades were found that could be measured.
 bool ShowsWholeBlades(const LadderResult& result) {
   const BladePair& pair = result.best.pair;
-  return pair.quality >= kAcceptedQuality && !pair.first.cut_off && !pair.second.cut_off;
+  return pair.quality >= kAcceptedQuality && !RunsOut(pair);
 }
 
 const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
