@@ -256,42 +256,49 @@ std::vector<ScrewSearch> PiecesOf(const ScrewSearch& search) {
   return pieces;
 }
 
-// Where no head was seen that can be trusted: one further forward; one all about the overlap; a
-// wider or a smaller one, which may be faint where the blades alone put the pivot; one of which
-// nothing but the slot shows; a half-lit one. Necks of members and engraved marks are round, too,
-// but less so than heads; about few of them the edges mirror each other.
-std::optional<Screw> LookFurther(const HeadSearch& known) {
-  // Where the view is known, edges mirror each other about few false heads.
-  constexpr double kUnmistakable = 25, kFaint = 5, kFaintest = 3.5;
-  const double faint = known.scale.sheet ? kFaintest : kFaint;
-  const auto forward = FindHere(known, SearchOverlap(known.scale, known.scene, 0.75));
-  if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
-  const auto is_sure = [&](const Screw& screw) {
-    const bool seen = screw.evidence > faint;
-    if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
-    const bool slotted = screw.slot && screw.slot->ends_seen;
-    return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
-           MayMirrorAbout(screw, known);
-  };
+constexpr double kFaint = 5;  // evidence of a head that something else must speak for
+
+// Whether a head near the joint is to be trusted: necks of members and engraved marks are round,
+// too, but less so than heads, and about few of them the edges mirror each other, the fewest where
+// the view is known.
+bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
+  const bool seen = screw.evidence > (known.scale.sheet ? kFaintestHead : kFaint);
+  if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
+  const bool slotted = screw.slot && screw.slot->ends_seen;
+  return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
+         MayMirrorAbout(screw, known);
+}
+
+// The same of one that is wider or smaller than usual.
+bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
+  if (screw.evidence > kUnmistakable || MirrorNear(screw, known)) return true;
+  const bool at_place = screw.evidence > kFaint && LiesWhereBladesTurn(screw, known);
+  return at_place && MayMirrorAbout(screw, known);
+}
+
+// The clearest that is sure, of what is seen in each of the searches.
+std::optional<Screw> ClearestIn(const HeadSearch& known,
+                                const std::vector<ScrewSearch>& searches,
+                                bool (*is_sure)(const Screw&, const HeadSearch&)) {
   std::optional<Screw> clearest;
-  const auto is_clearer = [&](const Screw& screw) {
-    return !clearest || screw.evidence > clearest->evidence;
-  };
-  for (const std::optional<Screw>& screw :
-       FindInEach(known, PiecesOf(SearchAllAbout(known.scale, known.scene, kFaintest)))) {
-    if (screw && is_clearer(*screw) && is_sure(*screw)) clearest = screw;
+  for (const std::optional<Screw>& screw : FindInEach(known, searches)) {
+    const bool clearer = screw && (!clearest || screw->evidence > clearest->evidence);
+    if (clearer && is_sure(*screw, known)) clearest = screw;
   }
-  if (clearest) return clearest;
-  for (const std::optional<Screw>& other : FindInEach(
-           known,
-           {SearchWideHead(known.scale, known.scene), SearchSmallHead(known.scale, known.scene)})) {
-    if (!other || !is_clearer(*other)) continue;
-    const bool at_place = other->evidence > kFaint && LiesWhereBladesTurn(*other, known);
-    if (other->evidence > kUnmistakable || MirrorNear(*other, known) ||
-        (at_place && MayMirrorAbout(*other, known)))
-      clearest = other;
-  }
-  if (clearest) return clearest;
+  return clearest;
+}
+
+// Where no head was seen that can be trusted: one further forward; one all about the overlap; a
+// wider or a smaller one; one of which nothing but the slot shows; a half-lit one.
+std::optional<Screw> LookFurther(const HeadSearch& known) {
+  const ScaleResult& scale = known.scale;
+  const Scene& scene = known.scene;
+  const auto forward = FindHere(known, SearchOverlap(scale, scene, 0.75));
+  if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
+  const auto about_joint = PiecesOf(SearchAllAbout(scale, scene, kFaintestHead));
+  if (auto head = ClearestIn(known, about_joint, IsSureAtJoint)) return head;
+  const std::vector unusual{SearchWideHead(scale, scene), SearchSmallHead(scale, scene)};
+  if (auto head = ClearestIn(known, unusual, IsSureOfUnusualSize)) return head;
   if (auto slotted = LookForSlot(known)) return slotted;
   const auto half = FindHere(known, SearchHalfLit(known));
   return half && MirrorNear(*half, known) ? half : std::nullopt;

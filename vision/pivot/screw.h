@@ -38,9 +38,9 @@ struct Screw {
   std::optional<ScrewSlot> slot;  // if the head has one
 };
 
-// Evidence of a head that need not be looked for any further, and of one that shadows and facets of
-// joints do not reach.
-inline constexpr double kBeyondDoubt = 15, kFaintHead = 10;
+// Evidence of a head that nothing else looks like; of one that need not be looked for any further;
+// of one that shadows and facets of joints do not reach; and below which nothing is a head.
+inline constexpr double kUnmistakable = 25, kBeyondDoubt = 15, kFaintHead = 10, kFaintestHead = 3.5;
 
 // Whether it may be one of those: they show no slot.
 [[nodiscard]] inline bool IsFaint(const Screw& screw) {
@@ -65,7 +65,7 @@ struct ScrewSearch {
   // Below, nothing is returned. Where no head is seen, shank edges, grain, cloth and lettering
   // reach it in one of twenty joints, so that below kFaintHead something else must speak for a
   // head. Blade tips are round, too; they must not be within the radius.
-  double least_evidence = 3.5;
+  double least_evidence = kFaintestHead;
   // Rims of which a third does not show at all count, too: light from one side leaves no more of
   // some. Tips and corners look like them.
   bool half_lit = false;

@@ -81,7 +81,7 @@ std::vector<FoundRim> JudgeAll(const SearchedOctave& searched, double* least_sco
 // Whether it is a head of which all of the rim was followed: neither other sizes nor a second look
 // would change it.
 bool IsUnmistakable(const FoundRim& rim) {
-  constexpr double kUnmistakable = 25, kLeastThird = 0.75;
+  constexpr double kLeastThird = 0.75;
   return rim.evidence > kUnmistakable && rim.fit.third_support > kLeastThird && !rim.one_sided;
 }
 
