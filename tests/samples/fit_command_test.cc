@@ -395,6 +395,24 @@ TEST(Fit, WarnsOfBladesThatNoScissorsHave) {
   EXPECT_TRUE(warns(0.05));
 }
 
+TEST(Fit, WarnsOfAnAngleThatIsVague) {
+  constexpr double kQuarterDegree = 0.25 * std::numbers::pi / 180;
+  const fs::path folder = TestFolder();
+  int vague = 0, plain = 0;
+  for (const double scale : {1.0, 0.5, 0.25, 0.18}) {
+    cv::Mat small;
+    cv::resize(PhotoFromAbove().bgr, small, {}, scale, scale, cv::INTER_AREA);
+    WriteText(folder / "scissors.jpg", JpegFile(small));
+    const Json record = MustFit(folder, {"scissors.jpg", "--units", "px"});
+    const bool is_vague = record["photos"][0]["theta_sigma_rad"] > kQuarterDegree;
+    const bool warns = std::ranges::count(record["warnings"], Json("theta_vague")) == 1;
+    EXPECT_EQ(warns, is_vague) << scale;
+    ++(is_vague ? vague : plain);
+  }
+  EXPECT_GE(vague, 1);
+  EXPECT_GE(plain, 1);
+}
+
 TEST(Fit, WithoutAScaleItIsRefused) {
   const fs::path folder = TestFolder();
   WriteText(folder / "scissors.png", PngFile(PhotoFromAbove().bgr, PngKind::kRgb8));
