@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "vision/image/covariance.h"
@@ -240,18 +239,18 @@ std::optional<Screw> LookForSlot(const HeadSearch& known) {
   return nearest;
 }
 
-// Seven discs that cover the search: in each, a head is judged by its own surroundings, and by as
-// many candidates as in all of it.
-std::vector<ScrewSearch> PiecesOf(const ScrewSearch& search) {
-  constexpr int kAround = 6;
-  const double half_px = 0.5 * search.radius_px, apart_px = std::sqrt(3.0) * half_px;
-  ScrewSearch piece = search;
-  piece.radius_px = half_px;
-  std::vector<ScrewSearch> pieces(kAround + 1, piece);
-  for (int i = 0; i < kAround; ++i) {
-    const double angle = 2 * std::numbers::pi * i / kAround;
-    pieces[static_cast<std::size_t>(i)].guess_px +=
-        apart_px * Vector2d(std::cos(angle), std::sin(angle));
+// Three discs along the overlap instead of one all about it: in each, a head is judged by its own
+// surroundings, and by as many candidates as in all of it. Between them they reach 0.4 of its
+// radius aside of the line between the crotches; of 232 photographs no pivot lies further aside
+// than 0.36.
+std::vector<ScrewSearch> PiecesAlongOverlap(const HeadSearch& known) {
+  constexpr double kRadius = 0.5, kApart = 0.6;  // of the whole disc's radius
+  const Vector2d along = (known.scene.crotch_px - known.scene.shank_crotch_px).normalized();
+  const ScrewSearch whole = SearchAllAbout(known.scale, known.scene, kFaintestHead);
+  std::vector<ScrewSearch> pieces(3, whole);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    pieces[i].radius_px = kRadius * whole.radius_px;
+    pieces[i].guess_px += (static_cast<double>(i) - 1) * kApart * whole.radius_px * along;
   }
   return pieces;
 }
@@ -295,8 +294,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
   const Scene& scene = known.scene;
   const auto forward = FindHere(known, SearchOverlap(scale, scene, 0.75));
   if (forward && (forward->evidence > kBeyondDoubt || MirrorNear(*forward, known))) return forward;
-  const auto about_joint = PiecesOf(SearchAllAbout(scale, scene, kFaintestHead));
-  if (auto head = ClearestIn(known, about_joint, IsSureAtJoint)) return head;
+  if (auto head = ClearestIn(known, PiecesAlongOverlap(known), IsSureAtJoint)) return head;
   const std::vector unusual{SearchWideHead(scale, scene), SearchSmallHead(scale, scene)};
   if (auto head = ClearestIn(known, unusual, IsSureOfUnusualSize)) return head;
   if (auto slotted = LookForSlot(known)) return slotted;
