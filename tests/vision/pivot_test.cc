@@ -100,10 +100,10 @@ TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
 TEST(FindPivot, TakesAFaintestHeadInAKnownViewOrWhereTheBladesTurn) {
   constexpr double kClosePx = 1.5, kAsidePx = 10, kFaintest = 5;
   SceneSpec spec = SceneWithMarkers();
-  spec.scissors.screw_radius_mm = 1.2;
-  spec.sensor.noise_grey = 2.5;
+  spec.scissors.screw_radius_mm = 1.3;
+  spec.sensor.noise_grey = 3;
   Measured measured{spec};
-  const Scene scene = WithCrotchAhead(measured.scene, 4);  // the head is not where it is looked for
+  const Scene scene = WithCrotchAhead(measured.scene, 2);  // the head is not where it is looked for
   const auto found = [&](const ScaleResult& scale) {
     const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
     return FindPivot(measured.photo.grey(), scale, {scene, edges, std::nullopt});
