@@ -287,7 +287,7 @@ std::optional<Screw> ClearestIn(const HeadSearch& known,
   return clearest;
 }
 
-// Where no head was seen that can be trusted: one further forward; one all about the overlap; a
+// Where no head was seen that can be trusted: one further forward; one along the overlap; a
 // wider or a smaller one; one of which nothing but the slot shows; a half-lit one.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   const ScaleResult& scale = known.scale;
