@@ -158,5 +158,47 @@ TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
   EXPECT_FALSE(AreOneShadow(shadow, {10, 0.2, 0.7, Shadow::kBrighter}));
 }
 
+// A bright blade on dark ground, bordered by a bevel that mirrors it.
+double WithDimBevel(double d, double width_px) {
+  constexpr double kBright = 220, kBevel = 70, kDarkGround = 30;
+  return kBright + Smooth(d) * (kBevel - kBright) + Smooth(d - width_px) * (kDarkGround - kBevel);
+}
+
+TEST(TrailPx, TellsADimBevelFromNoneAndFromAShadow) {
+  const auto trail_in = [](const std::function<double(double)>& light) {
+    return TrailPx(PictureOf(light), testing::GammaCurve(1), UprightEdge());
+  };
+  const auto none = trail_in([](double d) { return WithDimBevel(d, 0); });
+  ASSERT_TRUE(none);
+  EXPECT_LT(*none, 2);
+  for (const double width_px : {2.0, 4.0}) {
+    const auto trail = trail_in([&](double d) { return WithDimBevel(d, width_px); });
+    ASSERT_TRUE(trail) << width_px;
+    EXPECT_LT(*trail - *none, width_px + 0.3);
+    EXPECT_GT(*trail - *none, width_px - 1.1) << "the border's own step is less than the whole";
+  }
+  const auto shadow = trail_in([](double d) { return WithDimBevel(d, 0) + Smooth(d - 5) * 40; });
+  ASSERT_TRUE(shadow);
+  EXPECT_NEAR(*shadow, *none, 0.6);
+  EXPECT_FALSE(trail_in([](double d) { return kBlade + Smooth(d) * (kGround - kBlade); }))
+      << "a bright ground";
+}
+
+TEST(LocateEdgeBeyond, FindsTheBorderOfABevelThatMakesNoStepOfItsOwn) {
+  for (const double width_px : {2.0, 3.0}) {
+    const cv::Mat grey = PictureOf([&](double d) { return WithDimBevel(d, width_px); });
+    EdgeOptions options;
+    options.blur_px = 0.75;  // with the pixel's box that of Smooth
+    const LocatedEdge border = LocateEdgeBeyond(
+        UprightEdge(), width_px + 0.4, false, grey, testing::GammaCurve(1), options);
+    for (const LocatedEdgePoint& point : border.points) {
+      if (point.inlier) {
+        EXPECT_NEAR(point.trend_px.x(), kEdgeX + width_px, 0.15) << width_px;
+      }
+    }
+    EXPECT_LT(TypicalContrast(border), 0);
+  }
+}
+
 }  // namespace
 }  // namespace bladecurve

@@ -199,6 +199,26 @@ LocatedEdge LocateEdge(const cv::Mat& grey,
                   {grey, tone, options, rough});
 }
 
+LocatedEdge LocateEdgeBeyond(const LocatedEdge& line,
+                             double width_px,
+                             bool blade_on_left,
+                             const cv::Mat& grey,
+                             const ToneCurve& tone,
+                             const EdgeOptions& options) {
+  constexpr double kUsualBlurPx = 0.9;
+  EdgeGuess guess{{}, blade_on_left};
+  ChosenTransition chosen;
+  for (const LocatedEdgePoint& point : line.points)
+    guess.path_px.push_back(point.trend_px + width_px * point.normal);
+  const EdgePath rough = RoughPath(grey, guess);
+  chosen.points = rough.points;
+  chosen.inner_px = {width_px};
+  chosen.outer_px = {kNoTransition};
+  chosen.blur_px = BlurOr(line, kUsualBlurPx);
+  chosen.support = 1;
+  return FitAlong(chosen, blade_on_left, {grey, tone, options, rough});
+}
+
 LocatedEdge LocateEdgeInShadow(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const EdgeGuess& guess,

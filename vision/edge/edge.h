@@ -81,6 +81,16 @@ struct LocatedEdge {
                                      const EdgeGuess& guess,
                                      const EdgeOptions& options = {});
 
+// The same beyond the line of a bevel, so near that its border makes no step of its own: about
+// `width_px` further out, the line being modelled as what it is. Two steps look like one that is
+// softer unless options.blur_px is known.
+[[nodiscard]] LocatedEdge LocateEdgeBeyond(const LocatedEdge& line,
+                                           double width_px,
+                                           bool blade_on_left,
+                                           const cv::Mat& grey,
+                                           const ToneCurve& tone,
+                                           const EdgeOptions& options = {});
+
 // How a shadow beside a blade compares with it.
 enum class Shadow { kDarker, kBrighter };
 

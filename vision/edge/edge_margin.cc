@@ -143,6 +143,24 @@ std::optional<Margin> FindDarkLine(const cv::Mat& grey,
   return line;
 }
 
+std::optional<double> TrailPx(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge) {
+  constexpr double kBladePx = 4, kFarthestPx = 12, kStepPx = 0.25;
+  constexpr double kEnds = 0.1;              // of the step
+  constexpr double kBrighter = 2;            // times the ground's light is the blade's
+  const auto root_at = [&](double across) {  // of light: its noise is even, and faint light counts
+    return std::sqrt(TypicalLight(grey, tone, edge, across).value_or(0));
+  };
+  const double blade = root_at(-kBladePx);
+  double darkest = blade;  // the ground, or a shadow on it
+  for (double across = 1; across <= kFarthestPx; ++across)
+    darkest = std::min(darkest, root_at(across));
+  if (blade * blade < kBrighter * darkest * darkest) return std::nullopt;
+  const double end = darkest + kEnds * (blade - darkest);
+  double trail = 0;
+  while (trail < kFarthestPx && root_at(trail) > end) trail += kStepPx;
+  return trail;
+}
+
 std::optional<Band> BandBeside(const cv::Mat& grey,
                                const ToneCurve& tone,
                                const LocatedEdge& edge) {

@@ -31,6 +31,14 @@ struct Margin {
                                                  const LocatedEdge& edge,
                                                  double blade_px);
 
+// How far out of an edge light falls to the darkest beside it but for a tenth of the step, px,
+// where the blade is clearly the brighter. It trails off beyond the blur where the edge is the line
+// of a bevel that mirrors a dark ground and is hardly brighter than that; shadows are darker.
+// std::nullopt elsewhere.
+[[nodiscard]] std::optional<double> TrailPx(const cv::Mat& grey,
+                                            const ToneCurve& tone,
+                                            const LocatedEdge& edge);
+
 // What lies between an edge and its rival.
 struct Band {
   double width_px = 0;

@@ -16,6 +16,7 @@
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
+#include "vision/scissors/unseen_bevel.h"
 
 namespace bladecurve {
 namespace {
@@ -162,6 +163,7 @@ BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   LeaveCastShadow(view, &edges);
   DoubtDarkLine(view, true, &edges.upper);
   DoubtDarkLine(view, false, &edges.lower);
+  LeaveBevelsLine(view, &edges);
   return edges;
 }
 

@@ -18,6 +18,7 @@
 #include "vision/scissors/edge_relocation.h"
 #include "vision/scissors/end_pair.h"
 #include "vision/scissors/mirror_line.h"
+#include "vision/scissors/unseen_bevel.h"
 
 namespace bladecurve {
 namespace {
@@ -96,6 +97,7 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
   DoubtSofterEdge(blades);
+  DoubtUnseenBevel(view, blades);
   DoubtUnlikePrint(view.scale(), blades);
   DoubtLaterLook(view.scene(), pivot, blades);
 }
