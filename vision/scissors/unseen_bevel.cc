@@ -14,7 +14,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kFurtherPx = 0.9;  // of one trail than of the other
+constexpr double kFurtherPx = 1.1;  // of one trail than of the other
 
 // How far light trails off beyond two edges, px.
 struct Trails {
@@ -53,12 +53,16 @@ std::optional<LocatedEdge> BorderBeyond(
 }  // namespace
 
 void LeaveBevelsLine(const BladeView& view, BladeEdges* edges) {
-  constexpr double kHalf = 0.5;  // of a trail lies beyond the middle of its step
+  constexpr double kHalf = 0.5;    // of a trail lies beyond the middle of its step
+  constexpr double kSofter = 1.5;  // ratio of the blurs
   const auto trails = UnlikeTrails(view, edges->upper, edges->lower);
   if (!trails) return;
   const bool left = trails->OfUpper();
   LocatedEdge& line = left ? edges->upper : edges->lower;
   const LocatedEdge& other = left ? edges->lower : edges->upper;
+  // The other edge may lie on such a line itself, or on a shadow's; and what is softer trails off
+  // by its own blur.
+  if (other.ambiguity > kAsGood || line.blur_px > kSofter * other.blur_px) return;
   const double width_px = trails->Further() + kHalf * trails->Usual();
   auto border = BorderBeyond(view, line, width_px, left, other.blur_px);
   if (border) line = *std::move(border);
