@@ -60,9 +60,9 @@ void LeaveBevelsLine(const BladeView& view, BladeEdges* edges) {
   const bool left = trails->OfUpper();
   LocatedEdge& line = left ? edges->upper : edges->lower;
   const LocatedEdge& other = left ? edges->lower : edges->upper;
-  // The other edge may lie on such a line itself, or on a shadow's; and what is softer trails off
-  // by its own blur.
-  if (other.ambiguity > kAsGood || line.blur_px > kSofter * other.blur_px) return;
+  // Not where the other edge may lie on such a line itself, or a shadow's; what is softer trails
+  // off by its own blur. Nor where a blur is not known.
+  if (other.ambiguity > kAsGood || !(line.blur_px <= kSofter * other.blur_px)) return;
   const double width_px = trails->Further() + kHalf * trails->Usual();
   auto border = BorderBeyond(view, line, width_px, left, other.blur_px);
   if (border) line = *std::move(border);
