@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRejectSigmas = 4;     // 6 in 100000 good points are lost
 constexpr double kTukeySigmas = 4.685;  // 95 % efficient for Gaussian noise
-constexpr int kMaxSpans =
+constexpr int kMaxCleanSpans =
     12;  // of the flexible spline: a wave of a twelfth of the blade is still shape
 constexpr int kSamplesPerSpan = 10;
 constexpr double kStiffness = 1e-6;  // bridges a nick without bending the rest
@@ -182,7 +182,8 @@ Cleaning StartCleaning(const EdgeSamples& edge, const Pose& pose, bool is_upper)
   }
   std::vector<FlatPoint> sorted = c.points;
   SortAlong(sorted);
-  const int spans = std::clamp(static_cast<int>(edge.effective() / kSamplesPerSpan), 1, kMaxSpans);
+  const int spans =
+      std::clamp(static_cast<int>(edge.effective() / kSamplesPerSpan), 1, kMaxCleanSpans);
   const int degree = std::clamp(static_cast<int>(edge.effective() / 2) - 1, 1, 3);
   c.space = ClampedSpace(degree,
                          sorted.front().u,

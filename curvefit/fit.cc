@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
 
 #include "curvefit/choose_knots.h"
@@ -15,13 +14,13 @@
 #include "curvefit/family_fit.h"
 #include "curvefit/mirror.h"
 #include "curvefit/recommend.h"
+#include "model/degrees.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
 
 constexpr int kThinned = 256;  // points an edge for choosing knots and judging the mirror image
-constexpr double kDegree = std::numbers::pi / 180;
 
 void CheckOptions(const std::vector<EdgePoints>& photos, const FitOptions& options) {
   const auto refuse = [](const std::string& what) { throw std::invalid_argument("fit: " + what); };
@@ -177,7 +176,7 @@ CurveDomain DomainOf(const FitData& data, const SplineSpace& space) {
   domain.x_max_mm = space.upper() * data.length_mm;
   domain.theta_min_rad = 0;
   // Beyond 170 deg a turned edge is hardly a graph over x any more.
-  domain.theta_max_rad = std::clamp(1.25 * widest, 60 * kDegree, 170 * kDegree);
+  domain.theta_max_rad = std::clamp(1.25 * widest, 60 * kRadPerDeg, 170 * kRadPerDeg);
   return domain;
 }
 
@@ -192,8 +191,8 @@ void RefuseUnknownTheta(const FitData& data, const std::vector<FittedPose>& pose
     std::snprintf(theta.data(),
                   theta.size(),
                   "%.1f +- %.1f deg",
-                  pose.theta_rad / kDegree,
-                  pose.theta_sigma_rad / kDegree);
+                  pose.theta_rad / kRadPerDeg,
+                  pose.theta_sigma_rad / kRadPerDeg);
     throw Refused(Reason::kFitFailed,
                   "fit: " + data.photos[p].name + ": theta is " + theta.data() +
                       ", as the tip of a blade is lost; show both tips clearly, or give theta");

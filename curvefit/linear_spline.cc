@@ -15,7 +15,7 @@ namespace {
 constexpr double kPoseSlack = 0.05;
 // Keeps the equations solvable where a basis function meets no point; far below the rounding of the
 // data.
-constexpr double kRidge = 1e-13;
+constexpr double kLeastRidge = 1e-13;
 // A photograph beyond the first may be off by an offset, a turn and a shift along u.
 constexpr int kMotions = 3;
 // Beside the powers of t: v, and the edge's slope, with which a shift along u shows. One photograph
@@ -27,11 +27,11 @@ int MotionColumn(const SplineSpace& space, int photo) {
   return space.size() + kMotions * (photo - 1);
 }
 
-struct NormalEquations {
+struct LinearEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd right;
 
-  explicit NormalEquations(Eigen::Index size)
+  explicit LinearEquations(Eigen::Index size)
       : matrix(Eigen::MatrixXd::Zero(size, size)), right(Eigen::VectorXd::Zero(size)) {}
 
   // The points of the first photograph in one span, as basis functions and v.
@@ -84,7 +84,7 @@ void SpanBySpan(const std::vector<FlatPoint>& points,
 template <int Degree>
 void AddOnePhoto(const std::vector<FlatPoint>& points,
                  const std::vector<Span>& spans,
-                 NormalEquations& equations) {
+                 LinearEquations& equations) {
   SpanSums<Degree, 1> sums;
   const auto add = [&](const FlatPoint& point, double t) {
     sums.Add(t, point.weight, {point.weight * point.v});
@@ -101,7 +101,7 @@ void AddPhotos(const std::vector<FlatPoint>& points,
                const SplineSpace& space,
                const std::vector<Span>& spans,
                int photos,
-               NormalEquations& equations) {
+               LinearEquations& equations) {
   std::vector<SpanSums<Degree, 2>> sums(photos);
   const auto add = [&](const FlatPoint& point, double t) {
     sums[point.photo].Add(t, point.weight, {point.weight * point.v, point.weight * point.slope});
@@ -158,7 +158,7 @@ LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
                              double stiffness) {
   const int last_photo = LastPhoto(points), motions = kMotions * last_photo;
   const std::vector<Span> spans = SpansOf(space);
-  NormalEquations equations(space.size() + motions);
+  LinearEquations equations(space.size() + motions);
   WithDegree(space.degree, [&](auto degree) {
     if (last_photo == 0) return AddOnePhoto<degree()>(points, spans, equations);
     AddPhotos<degree()>(points, space, spans, last_photo + 1, equations);
@@ -166,7 +166,7 @@ LinearSpline FitLinearSpline(const std::vector<FlatPoint>& points,
   Eigen::MatrixXd& normal = equations.matrix;
   normal.diagonal().tail(motions).array() += 1 / (kPoseSlack * kPoseSlack);
   if (stiffness > 0) AddStiffness(stiffness, space.size(), normal);
-  normal.diagonal().array() += kRidge * normal.diagonal().maxCoeff();
+  normal.diagonal().array() += kLeastRidge * normal.diagonal().maxCoeff();
   const Eigen::VectorXd solution = normal.ldlt().solve(equations.right);
 
   LinearSpline fit{space, solution.head(space.size()), {}, 0, {Eigen::Vector3d::Zero()}};

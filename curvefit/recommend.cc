@@ -4,20 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "curvefit/compare_families.h"
 #include "curvefit/linear_spline.h"
 #include "curvefit/statistics.h"
+#include "model/degrees.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSeveralAngles =
-    2 * kDegree;                     // angles closer than this say nothing about the families
+    2 * kRadPerDeg;                  // angles closer than this say nothing about the families
 constexpr double kTorquePart = 0.1;  // the paper's own model is off by about as much
-constexpr double kGivenApart = 1 * kDegree;  // a given theta further from the ends' is doubtful
+constexpr double kGivenApart = 1 * kRadPerDeg;  // a given theta further from the ends' is doubtful
 
 double AngleSpread(const std::vector<FittedPose>& poses) {
   const auto less = [](const FittedPose& a, const FittedPose& b) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
+
+#include "model/degrees.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr std::size_t kFewestRows = 50;  // fewer cannot show contact, deformation and cutting
 // Rejects rows out of order and scissors that open again, not the flicker of a coarse encoder.
 constexpr double kLargestReturn_rad = 0.5 * kRadPerDeg;

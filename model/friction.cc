@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "model/degrees.h"
+
 namespace bladecurve {
-namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
-
-}  // namespace
 
 FrictionCurve::FrictionCurve(std::vector<double> theta_rad,
                              std::vector<double> closing_n,

@@ -4,16 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "model/blade_uncertainty.h"
+#include "model/degrees.h"
 #include "model/friction.h"
 #include "model/number_table.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr std::size_t kFrictionBins = 200;  // a tenth of a degree each: nicks of a blade are wider
 constexpr double kFreeEnds_rad = 0.1 / kDegPerRad;  // that the empty runs need not reach
 

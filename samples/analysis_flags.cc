@@ -9,17 +9,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "model/degrees.h"
 #include "samples/flag_values.h"
 #include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 
 std::optional<double> Positive(const std::string& flag, const std::optional<std::string>& text) {
   if (!text) return std::nullopt;
@@ -127,10 +125,10 @@ ScaleOptions ScaleFromFlags(const AnalysisFlags& flags) {
   return scale;
 }
 
-Direction DirectionFromName(const std::string& name) {
-  if (name == "right") return Direction::kRight;
-  if (name == "left") return Direction::kLeft;
-  return name == "up" ? Direction::kUp : Direction::kDown;
+ImageDirection DirectionFromName(const std::string& name) {
+  if (name == "right") return ImageDirection::kRight;
+  if (name == "left") return ImageDirection::kLeft;
+  return name == "up" ? ImageDirection::kUp : ImageDirection::kDown;
 }
 
 SceneHints HintsFromFlags(const AnalysisFlags& flags) {

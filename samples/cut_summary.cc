@@ -6,15 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "model/degrees.h"
 #include "model/number_table.h"
 #include "samples/cut_run.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr std::array kPhases = {
     Phase::kNone, Phase::kDeformation, Phase::kCutting, Phase::kRelaxation, Phase::kThrough};
 

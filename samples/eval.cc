@@ -6,12 +6,12 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "model/blade_file.h"
+#include "model/degrees.h"
 #include "samples/commands.h"
 #include "samples/flag_values.h"
 #include "vision/photo/whole_file.h"
@@ -19,7 +19,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kMostRows = 1e7;     // rejects a step that was meant to be larger
 constexpr double kWholeSteps = 1e-9;  // this near to a whole number of steps, the end is meant
 

@@ -8,18 +8,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <variant>
 
 #include "model/blade_file.h"
+#include "model/degrees.h"
 #include "samples/blade_record.h"
 #include "samples/doubts.h"
 #include "samples/fitted_photo.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 std::string Form(const TaperedRectangle&) {
   return "tapered-rectangle, phi = a + x (b + gain tan(theta/2))";

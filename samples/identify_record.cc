@@ -7,8 +7,9 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <utility>
+
+#include "model/degrees.h"
 
 namespace bladecurve {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "bladecurve-material/1";
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr auto kDoubts = std::to_array<std::pair<const char*, const char*>>(
     {{"one_cut", "one cut shows no scatter, so nothing says how well these numbers are known"},
      {"one_empty_run", "one empty run shows no scatter: the uncertainty leaves friction out"},

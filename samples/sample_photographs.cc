@@ -7,18 +7,16 @@
 #include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "model/degrees.h"
 #include "samples/scene_truth.h"
 #include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct Sample {
   std::string name;
@@ -43,12 +41,12 @@ void LayFourMarkers(double size_mm, double half_width_mm, double half_height_mm,
 // A Mayo on white paper, the camera leaning a little.
 SceneSpec MayoOnPaper(double theta_deg) {
   SceneSpec scene;
-  scene.theta_rad = theta_deg * kDegree;
+  scene.theta_rad = theta_deg * kRadPerDeg;
   scene.heading_rad = 0.16;
   scene.pivot_mm = {24, 3};
   scene.camera = {.mm_per_px = 0.14,
                   .distance_mm = 430,
-                  .tilt_rad = 5 * kDegree,
+                  .tilt_rad = 5 * kRadPerDeg,
                   .tilt_azimuth_rad = 1.1,
                   .k1 = -0.012};
   LayFourMarkers(25, 115, 83, &scene);
@@ -69,13 +67,13 @@ SceneSpec MetzenbaumOnDrape() {
                     .screw_radius_mm = 2.1,
                     .slot_rad = 2.1,
                     .upper_on_top = false};
-  scene.theta_rad = 31 * kDegree;
+  scene.theta_rad = 31 * kRadPerDeg;
   scene.heading_rad = 2.75;
   scene.pivot_mm = {-30, 12};
   scene.edge_height_mm = 2.6;
   scene.camera = {.mm_per_px = 0.15,
                   .distance_mm = 480,
-                  .tilt_rad = 9 * kDegree,
+                  .tilt_rad = 9 * kRadPerDeg,
                   .tilt_azimuth_rad = 4.0,
                   .k1 = 0.02};
   scene.backdrop = Backdrop::kDrape;
@@ -100,10 +98,10 @@ SceneSpec IrisOnWood() {
                     .ring_mm = 21,
                     .screw_radius_mm = 1.7};
   scene.finish = Finish::kGold;
-  scene.theta_rad = 38 * kDegree;
+  scene.theta_rad = 38 * kRadPerDeg;
   scene.heading_rad = -1.2;
   scene.pivot_mm = {10, -14};
-  scene.camera = {.mm_per_px = 0.10, .distance_mm = 330, .tilt_rad = 3 * kDegree};
+  scene.camera = {.mm_per_px = 0.10, .distance_mm = 330, .tilt_rad = 3 * kRadPerDeg};
   scene.backdrop = Backdrop::kWood;
   scene.seed = 9;
   LayFourMarkers(18, 82, 58, &scene);

@@ -10,12 +10,12 @@
 #include <iostream>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "model/blade_file.h"
+#include "model/degrees.h"
 #include "samples/commands.h"
 #include "samples/cut_run.h"
 #include "samples/flag_values.h"
@@ -28,7 +28,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180;
 constexpr double kSampleWidth_mm = 23;  // of the plates that the paper cut
 
 struct TorqueCommand {

@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "model/degrees.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 // 1, 2 or 5 times a power of ten, so that about `count` of them fill the range.
 double TickStep(double range, int count) {

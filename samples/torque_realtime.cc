@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <thread>
 
+#include "model/degrees.h"
 #include "samples/flag_values.h"
 
 namespace bladecurve {
@@ -19,7 +19,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Microseconds = std::chrono::duration<double, std::micro>;
 
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 constexpr double kMostTicks = 1e7;  // 160 MB of times
 constexpr double kPlay_mm = 0.05;   // of the handle before it slides: far below what a hand feels
 

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "curvefit/bands.h"
+#include "model/degrees.h"
 #include "samples/fitted_photo.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegPerRad = 180 / std::numbers::pi;
 
 struct Foot {
   double distance = 0;  // signed; positive to the left of the line's direction, y down

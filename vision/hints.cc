@@ -18,19 +18,19 @@ using Eigen::Vector2d;
                               std::to_string(photo.displayed_height()) + " px high");
 }
 
-Vector2d DirectionInStored(const Photo& photo, Direction direction) {
+Vector2d DirectionInStored(const Photo& photo, ImageDirection direction) {
   Vector2d displayed = Vector2d::Zero();
   switch (direction) {
-    case Direction::kRight:
+    case ImageDirection::kRight:
       displayed = {1, 0};
       break;
-    case Direction::kLeft:
+    case ImageDirection::kLeft:
       displayed = {-1, 0};
       break;
-    case Direction::kUp:
+    case ImageDirection::kUp:
       displayed = {0, -1};
       break;
-    case Direction::kDown:
+    case ImageDirection::kDown:
       displayed = {0, 1};
       break;
   }

@@ -10,13 +10,13 @@
 
 namespace bladecurve {
 
-enum class Direction { kRight, kLeft, kUp, kDown };
+enum class ImageDirection { kRight, kLeft, kUp, kDown };
 
 // What the user knows about the picture; all in displayed pixels.
 struct SceneHints {
   std::optional<Eigen::Vector2d> pivot_px;
   std::optional<std::array<double, 4>> roi_px;  // x, y, width, height: the scissors to look at
-  std::optional<Direction> tips_toward;
+  std::optional<ImageDirection> tips_toward;
   std::optional<double> theta_rad;
 };
 

@@ -433,7 +433,7 @@ TEST(SceneFinder, TakesNoShanksForBladesWhoseTipsAreCutOff) {
   picture.colRange(0, static_cast<int>(pivot - 200)) = cv::mean(photo.bgr.col(0));
   EXPECT_EQ(ReasonFor(picture), "blades_not_visible");
   SceneHints hints;
-  hints.tips_toward = Direction::kLeft;
+  hints.tips_toward = ImageDirection::kLeft;
   EXPECT_NE(ReasonFor(picture, hints), "blades_not_visible") << "whoever says so is obeyed";
 }
 

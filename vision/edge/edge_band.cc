@@ -11,8 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-size_t Index(int i) { return static_cast<size_t>(i); }
-
 // Samples [first, last] along which the path keeps nearer to one axis of the picture: within it,
 // scanning lines across that axis meet the path once.
 struct Run {
@@ -128,7 +126,7 @@ class RunScanner {
   double inner_px_, outer_px_;
 };
 
-float Bilinear(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
+float BilinearLight(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
   const int x = cvFloor(at.x()), y = cvFloor(at.y());
   if (x < 0 || y < 0 || x + 1 >= grey.cols || y + 1 >= grey.rows) {
     return std::numeric_limits<float>::quiet_NaN();
@@ -178,7 +176,7 @@ StraightBand StraightenBand(const cv::Mat& grey,
     const Vector2d& normal = path.normals[Index(column)];
     Vector2d at = path.points[Index(column)] + band.first_across_px * normal;
     for (int row = 0; row < band.rows; ++row, at += normal)
-      band.light.push_back(Bilinear(grey, tone, at));
+      band.light.push_back(BilinearLight(grey, tone, at));
   }
   return band;
 }

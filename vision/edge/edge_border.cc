@@ -15,8 +15,6 @@
 namespace bladecurve {
 namespace {
 
-size_t Index(int i) { return static_cast<size_t>(i); }
-
 // Highest clear step of each station.
 std::vector<double> HighestSteps(const StepMap& map) {
   std::vector<double> highest(Index(map.stations), 1e-9);

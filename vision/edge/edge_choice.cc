@@ -12,8 +12,6 @@
 namespace bladecurve {
 namespace {
 
-size_t Index(int i) { return static_cast<size_t>(i); }
-
 // Share of its stations in which the line is clear or a deep fall of light, however soft.
 double SeenShare(const Survey& survey, const StepLine& line) {
   constexpr float kClear = 0.5F;

@@ -22,9 +22,9 @@ using Eigen::Vector4d;
 constexpr int kTerms =
     5;  // a quartic: blades with one bend are followed to a few tenths of a pixel
 constexpr int kRounds = 12;
-constexpr size_t kEnough = 300;      // points; more do not move a quartic
-constexpr double kLeastSigma = 0.2;  // px; no point is worth more, whatever its noise
-constexpr double kScale = 0.5;       // px; residuals beyond lose their pull (Cauchy)
+constexpr size_t kEnoughPoints = 300;  // points; more do not move a quartic
+constexpr double kLeastSigma = 0.2;    // px; no point is worth more, whatever its noise
+constexpr double kScale = 0.5;         // px; residuals beyond lose their pull (Cauchy)
 
 using Terms = Eigen::Matrix<double, kTerms, 1>;
 
@@ -200,7 +200,7 @@ double PlaceOf(size_t i, size_t count) {
 
 std::vector<Vector2d> PlainCurve(const std::vector<LocatedEdgePoint>& points) {
   std::vector<Vector2d> curve(points.size());
-  const size_t stride = 1 + points.size() / kEnough;
+  const size_t stride = 1 + points.size() / kEnoughPoints;
   std::vector<Terms> terms;
   for (size_t i = 0; i < points.size(); ++i)
     terms.push_back(LegendreTerms(PlaceOf(i, points.size())));

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kReach = 24;    // px shown to either side of the edge
+constexpr int kShown = 24;    // px shown to either side of the edge
 constexpr int kAcross = 8;    // picture rows a px
 constexpr int kProfiles = 8;  // curves below
 constexpr int kHeight = 220;  // of their plots
@@ -22,13 +22,13 @@ const cv::Scalar kGreen(80, 220, 80), kRed(60, 60, 255), kBlue(255, 160, 60), kY
     kInk(230, 230, 230), kPaper(30, 30, 30);
 
 // The straightened picture: a column for each point, the trend in the middle row.
-struct Strip {
+struct StraightStrip {
   const LocatedEdge& edge;
   cv::Mat grey;     // CV_8UC1, not yet enlarged
   int columns = 1;  // of the picture for one point
 
   [[nodiscard]] static int RowAt(double across_px) {
-    return static_cast<int>(std::lround((across_px + kReach) * kAcross));
+    return static_cast<int>(std::lround((across_px + kShown) * kAcross));
   }
   [[nodiscard]] int ColumnAt(std::size_t point) const {
     return static_cast<int>(point) * columns + columns / 2;
@@ -41,31 +41,31 @@ struct Strip {
   }
 };
 
-Strip Straighten(const cv::Mat& grey, const LocatedEdge& edge) {
+StraightStrip Straighten(const cv::Mat& grey, const LocatedEdge& edge) {
   constexpr int kWidest = 1600;  // columns of a picture that fits a screen
-  const int count = static_cast<int>(edge.points.size()), rows = 2 * kReach * kAcross + 1;
+  const int count = static_cast<int>(edge.points.size()), rows = 2 * kShown * kAcross + 1;
   cv::Mat x(rows, count, CV_32F), y(rows, count, CV_32F);
   for (int column = 0; column < count; ++column) {
     const LocatedEdgePoint& point = edge.points[static_cast<std::size_t>(column)];
     for (int row = 0; row < rows; ++row) {
-      const double across = static_cast<double>(row) / kAcross - kReach;
+      const double across = static_cast<double>(row) / kAcross - kShown;
       const Vector2d at = point.trend_px + across * point.normal;
       x.at<float>(row, column) = static_cast<float>(at.x());
       y.at<float>(row, column) = static_cast<float>(at.y());
     }
   }
-  Strip strip{edge, {}, std::clamp(kWidest / std::max(count, 1), 1, kAcross)};
+  StraightStrip strip{edge, {}, std::clamp(kWidest / std::max(count, 1), 1, kAcross)};
   cv::remap(grey, strip.grey, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return strip;
 }
 
-void DrawPoints(const Strip& strip, cv::Mat* picture) {
+void DrawPoints(const StraightStrip& strip, cv::Mat* picture) {
   const std::vector<LocatedEdgePoint>& points = strip.edge.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const cv::Point trend(strip.ColumnAt(i), Strip::RowAt(0));
+    const cv::Point trend(strip.ColumnAt(i), StraightStrip::RowAt(0));
     cv::circle(*picture, trend, 0, kBlue, cv::FILLED);
     const double off = points[i].normal.dot(points[i].point_px - points[i].trend_px);
-    const cv::Point at(trend.x, Strip::RowAt(std::clamp<double>(off, -kReach, kReach)));
+    const cv::Point at(trend.x, StraightStrip::RowAt(std::clamp<double>(off, -kShown, kShown)));
     cv::circle(*picture, at, 1, points[i].inlier ? kGreen : kRed, cv::FILLED);
   }
   for (const Vector2d& p : strip.edge.rival_path_px)
@@ -115,7 +115,7 @@ cv::Mat Caption(const LocatedEdge& edge, int width) {
 
 cv::Mat DrawEdge(const cv::Mat& grey, const LocatedEdge& edge) {
   constexpr int kNarrowest = 800;  // columns; less does not hold the curves
-  const Strip strip = Straighten(grey, edge);
+  const StraightStrip strip = Straighten(grey, edge);
   cv::Mat picture;
   cv::resize(strip.grey, picture, {}, strip.columns, 1, cv::INTER_NEAREST);
   cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);

@@ -20,8 +20,8 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kEnough = 400;  // samples; of longer edges every second or third tells as much
-constexpr int kStretch = 4;   // samples whose pixels are kept together
+constexpr int kEnoughSamples = 400;  // samples; of longer edges every second or third tells as much
+constexpr int kStretchSamples = 4;   // samples whose pixels are kept together
 constexpr double kFirstShare =
     0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
 
@@ -40,8 +40,6 @@ constexpr int kImproveRounds = 2;
 constexpr Round kImprove = {2, true, true, true, false};
 constexpr Round kFinal = {1, true, true, true, true};
 constexpr double kLeastNoise = 2e-4;  // linear light; rendered pictures without noise
-
-size_t Index(int i) { return static_cast<size_t>(i); }
 
 class Fitter {
  public:
@@ -72,7 +70,8 @@ class Fitter {
  private:
   void Take(EdgePath path) {
     path_ = std::move(path);
-    stride_ = options_.blur_known ? 1 : 1 + path_.size() / kEnough;  // glare needs every pixel
+    stride_ =
+        options_.blur_known ? 1 : 1 + path_.size() / kEnoughSamples;  // glare needs every pixel
     offsets_.assign(path_.points.size(), 0.0);
     inner_px_ = SpreadEvenly(options_.inner_px, path_.size());
     for (double& inner : inner_px_) inner -= face_moved_px_;
@@ -93,7 +92,7 @@ class Fitter {
   }
 
   void Solve(const Round& round) {
-    EdgeWindows windows(path_.size(), kStretch * stride_);
+    EdgeWindows windows(path_.size(), kStretchSamples * stride_);
     windows.Distrust(misfit_);
     for (int i = 0; i < band_.size(); i += round.stride * stride_) {
       for (const PreparedPixel& pixel : Prepare(i)) {
@@ -169,7 +168,7 @@ class Fitter {
   void MeasureNoise() {
     constexpr double kPlain = 0.02;  // share of the other side
     std::vector<double> blade, ground, misfit;
-    for (int i = 0; i < band_.size(); i += 2 * kStretch * stride_) {
+    for (int i = 0; i < band_.size(); i += 2 * kStretchSamples * stride_) {
       const LevelVector levels = windows_.LevelsAt(i);
       double squares = 0;
       for (const PreparedPixel& pixel : Prepare(i)) {
@@ -271,7 +270,7 @@ class Fitter {
   std::vector<PreparedPixel> prepared_;           // of one sample
   std::vector<std::vector<PreparedPixel>> kept_;  // of all in the last round
   LevelVector slopes_ = LevelVector::Zero();      // precision: which slopes are needed
-  EdgeWindows windows_{0, kStretch};
+  EdgeWindows windows_{0, kStretchSamples};
   std::vector<double> misfit_;   // chi-square per pixel of stretches of the last round
   std::vector<double> offsets_;  // of the edge from the path, one per sample
   std::vector<double> before_;   // of the path from the start, evenly spaced

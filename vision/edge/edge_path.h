@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <vector>
 
 namespace bladecurve {
@@ -17,6 +18,9 @@ struct EdgePath {
 
   [[nodiscard]] int size() const { return static_cast<int>(points.size()); }
 };
+
+// Place in a vector of sample or station i.
+[[nodiscard]] inline std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
 // The polyline resampled every pixel, its corners rounded over about smoothing_px.
 // Throws Refused{kEdgeTooShort} if it has no length.

@@ -19,8 +19,6 @@ constexpr double kMostBlur = 5;  // px; beyond, the position is a matter of tast
 
 constexpr double kTrendPx = 60;  // what bends over less is scatter
 
-size_t Index(int i) { return static_cast<size_t>(i); }
-
 // Neighbouring slices combined by their information.
 std::vector<LocatedEdgePoint> SeenOf(const EdgeFit& fit) {
   std::vector<LocatedEdgePoint> points;

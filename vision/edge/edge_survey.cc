@@ -10,12 +10,10 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kBladePx = 8;       // seen beyond the search range inwards
-constexpr int kThinning = 2;         // samples of the guess to one that the first look takes
-constexpr int kEnough = 500;         // samples that tell as much as more of them would
+constexpr double kBladePx = 8;        // seen beyond the search range inwards
+constexpr int kThinning = 2;          // samples of the guess to one that the first look takes
+constexpr int kEnoughToSurvey = 500;  // samples that tell as much as more of them would
 constexpr float kLooseBend = 0.25F;  // the guess wanders about the edge by a row every few stations
-
-size_t Index(int i) { return static_cast<size_t>(i); }
 
 // Grey values as they are stored: noise and texture are then about alike in light and shadow, which
 // linear light is not.
@@ -58,7 +56,7 @@ EdgePath Thinned(const EdgePath& path, int stride) {
   return thin;
 }
 
-int StrideFor(const EdgePath& guess) { return 1 + guess.size() / kEnough; }
+int StrideFor(const EdgePath& guess) { return 1 + guess.size() / kEnoughToSurvey; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/edge/edge_path.h"
 #include "vision/image/robust_statistics.h"
 
 namespace bladecurve {
@@ -14,8 +15,6 @@ constexpr int kStretchesPerStep = 2;  // from one window to the next
 constexpr int kReach = 6;             // stretches to either side of a window's centre
 constexpr int kReachAtEnds = 2;
 constexpr double kOverlap = (2.0 * kReach + 1) / kStretchesPerStep;  // windows that share a stretch
-
-size_t Index(int i) { return static_cast<size_t>(i); }
 
 }  // namespace
 

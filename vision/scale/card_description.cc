@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "vision/scale/card.h"
+#include "vision/scale/marker_detector.h"
 
 namespace bladecurve {
 namespace {
 
 constexpr const char* kFormat = "bladecurve-card/1";
-constexpr int kDictionarySize = 50;
 
 class CardReader {
  public:

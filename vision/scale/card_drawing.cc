@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/scale/marker_detector.h"
+#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using Rectangle = CardDrawing::Rectangle;
 
 constexpr int kCells = 4;
-constexpr double kMmPerInch = 25.4;
 constexpr double kBarMm = 100;
 constexpr double kSmallMm = 2.3;  // keeps the widest common sans serif off the markers
 

@@ -19,7 +19,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kDictionarySize = 50, kCellsPerSide = 4;
+constexpr int kCellsPerSide = 4;
 
 struct Found {
   std::vector<std::vector<cv::Point2f>> corners;

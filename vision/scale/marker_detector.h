@@ -9,6 +9,8 @@
 
 namespace bladecurve {
 
+inline constexpr int kDictionarySize = 50;  // ids 0 to 49
+
 // A marker as OpenCV sees it: to about a pixel.
 struct RoughMarker {
   int id = 0;

@@ -15,7 +15,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
 // Flatbed scanners keep their stated resolution to a few parts in a thousand.
 constexpr double kScannerRelativeSigma = 0.002;
 

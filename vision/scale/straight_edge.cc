@@ -26,7 +26,7 @@ StraightEdge Describe(const StraightFit& fit, const StraightEdgeBand& band, doub
   edge.length_px = band.length;
   edge.bow_px = band.bow;
   edge.covariance = fit.covariance.topLeftCorner<2, 2>();
-  edge.blur_px = p[kBlur];
+  edge.blur_px = p[kEdgeBlur];
   edge.noise = std::sqrt(fit.mean_square);
   edge.contrast = p[kContrast];
   edge.bright = BrightSide(p);

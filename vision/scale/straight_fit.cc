@@ -50,7 +50,7 @@ class EdgeModel {
         cos_(std::cos(p[kAngle])),
         sin_(std::sin(p[kAngle])),
         scale_(1 / band.length),
-        profile_(std::atan2(band.normal.y(), band.normal.x()) + p[kAngle], p[kBlur]) {}
+        profile_(std::atan2(band.normal.y(), band.normal.x()) + p[kAngle], p[kEdgeBlur]) {}
 
   // Residual, light minus model, and the model's derivatives. Light beyond white is stored as
   // white.
@@ -65,7 +65,7 @@ class EdgeModel {
     }
     const double edge = lamp * p_[kContrast] * step.slope_per_px;
     *gradient << -edge, -edge * s.along, lamp, lamp * step.level,
-        lamp * p_[kContrast] * p_[kBlur] * step.curvature_per_px2, light * s.along * scale_;
+        lamp * p_[kContrast] * p_[kEdgeBlur] * step.curvature_per_px2, light * s.along * scale_;
     return s.light - lamp * light;
   }
 
@@ -123,7 +123,7 @@ StraightMatrix ClusteredCovariance(const std::vector<BandSample>& samples,
 }
 
 bool Plausible(const StraightVector& p, const StraightEdgeBand& band) {
-  return p.allFinite() && p[kBlur] <= kMaxBlurPx && std::abs(p[kOffset]) < band.half_width &&
+  return p.allFinite() && p[kEdgeBlur] <= kMaxBlurPx && std::abs(p[kOffset]) < band.half_width &&
          std::abs(p[kAngle]) * band.length < 2 * band.half_width;
 }
 
@@ -141,7 +141,7 @@ std::optional<StraightFit> RefineFrom(const std::vector<BandSample>& samples,
     damped.diagonal() += damping * now.information.diagonal() + StraightVector::Constant(1e-9);
     const StraightVector change = damped.ldlt().solve(now.gradient);
     StraightVector next = fit.parameters + change;
-    next[kBlur] = std::max(next[kBlur], kMinBlurPx);
+    next[kEdgeBlur] = std::max(next[kEdgeBlur], kMinBlurPx);
     if (!Plausible(next, band)) return std::nullopt;
     const NormalEquations there = Accumulate(samples, band, next);
     if (there.sum_square > now.sum_square) {
@@ -184,7 +184,7 @@ std::optional<StraightVector> StartOf(const std::vector<BandSample>& samples,
   start[kAngle] = std::atan(slope);
   start[kDark] = profile[1];
   start[kContrast] = profile[profile.size() - 2] - profile[1];
-  start[kBlur] = 1;
+  start[kEdgeBlur] = 1;
   return start;
 }
 

@@ -13,7 +13,7 @@ namespace bladecurve {
 // Illumination may fall off along the edge, but counts as even across the band: a slope of s a
 // pixel moves the edge by 1.4 s blur^2, 0.003 px for a strong 0.002, whereas solving for it would
 // double the scatter.
-enum StraightParameter { kOffset, kAngle, kDark, kContrast, kBlur, kAlong };
+enum StraightParameter { kOffset, kAngle, kDark, kContrast, kEdgeBlur, kAlong };
 inline constexpr int kStraightParameters = 6;
 using StraightVector = Eigen::Matrix<double, kStraightParameters, 1>;
 using StraightMatrix = Eigen::Matrix<double, kStraightParameters, kStraightParameters>;

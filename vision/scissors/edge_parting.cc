@@ -135,9 +135,9 @@ struct WasCut {
 };
 
 // Both edges about the mirror line, and where they part.
-class Comparison {
+class PartingComparison {
  public:
-  Comparison(const MirrorLine& line, Blades* blades) : line_(line), blades_(*blades) {
+  PartingComparison(const MirrorLine& line, Blades* blades) : line_(line), blades_(*blades) {
     TakeProfiles();
     gap_ = GapBetween(upper_, lower_);
   }
@@ -268,7 +268,7 @@ void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades
       KnowsMirror(view, pivot) ? !AreUnlike(pivot.asymmetry) : AreAlike(pivot.asymmetry);
   if (!may_agree) return;
   const Blades before = *blades;
-  Comparison comparison(LineBetween(view, pivot, *blades), blades);
+  PartingComparison comparison(LineBetween(view, pivot, *blades), blades);
   const WasCut was_cut = comparison.CutEnds();
   try {
     if (was_cut.upper) TrimToFree(view, &blades->upper, comparison.BeyondUpper());

@@ -66,7 +66,7 @@ void SetSigma(const Reach& reach, double sigma, LocatedBlade* blade) {
 }
 
 // The two lengths side by side.
-struct Comparison {
+struct EndComparison {
   Reach upper, lower;
   double gap = 0;       // upper less lower
   double unlike = 0;    // by how much equal blades may differ as seen, standard
@@ -81,16 +81,16 @@ struct Comparison {
   [[nodiscard]] bool Outwards() const { return upper.outwards && lower.outwards; }
 };
 
-Comparison Compare(const ScaleResult& scale,
-                   const Pivot& pivot,
-                   const Blades& blades,
-                   const DistalEnd& upper_end,
-                   const DistalEnd& lower_end) {
+EndComparison Compare(const ScaleResult& scale,
+                      const Pivot& pivot,
+                      const Blades& blades,
+                      const DistalEnd& upper_end,
+                      const DistalEnd& lower_end) {
   // Of the length. Blades are ground in pairs; but photographed freely one of them looks up to an
   // eighth shorter.
   constexpr double kMade = 0.005, kSeenAtASlant = 0.06;
   const PlaneMap map = scale.map.value_or(PlaneMap::Uniform(1, 0, kPixelsSource));
-  Comparison both;
+  EndComparison both;
   both.upper = ReachOf(map, pivot.point_px, blades.upper, upper_end);
   both.lower = ReachOf(map, pivot.point_px, blades.lower, lower_end);
   both.gap = both.upper.length - both.lower.length;
@@ -105,7 +105,7 @@ Comparison Compare(const ScaleResult& scale,
 // Least squares of the two lengths and their likeness. Afterwards the two errors are alike, and the
 // opening angle takes their sum: each end gets half the sum's variance, as if they were
 // independent.
-void Fuse(const Comparison& both, Blades* blades) {
+void Fuse(const EndComparison& both, Blades* blades) {
   const double upper = both.upper.sigma * both.upper.sigma;
   const double lower = both.lower.sigma * both.lower.sigma;
   const double sum = upper + lower - (upper - lower) * (upper - lower) / both.variance;
@@ -116,7 +116,7 @@ void Fuse(const Comparison& both, Blades* blades) {
 }
 
 // The upper blade's end is put at the lower one's length, or the other way round.
-void Follow(const Comparison& both, bool upper_follows, Blades* blades) {
+void Follow(const EndComparison& both, bool upper_follows, Blades* blades) {
   constexpr double kOfGap = 0.1;  // the edge is followed that far without being seen to the end
   const Reach& reach = upper_follows ? both.upper : both.lower;
   const Reach& known = upper_follows ? both.lower : both.upper;
@@ -126,7 +126,7 @@ void Follow(const Comparison& both, bool upper_follows, Blades* blades) {
 }
 
 // Nobody knows which of the two is wrong.
-void DoubtBoth(const Comparison& both, Blades* blades) {
+void DoubtBoth(const EndComparison& both, Blades* blades) {
   constexpr double kShare = 0.5;
   const double doubt = kShare * both.gap;
   SetSigma(both.upper, std::hypot(both.upper.sigma, doubt), &blades->upper);
@@ -149,7 +149,7 @@ constexpr double kMoreClearly = 1.5;  // times the evidence
 
 // Whether the shorter blade's tip fades into its ground. Nothing else makes a blade that much
 // shorter than the other one: shadows of tips lie nearer, and are seen no better.
-bool ShorterOneFades(const Comparison& both, const Blades& blades) {
+bool ShorterOneFades(const EndComparison& both, const Blades& blades) {
   constexpr double kFaded = 0.06;  // of the length
   if (std::abs(both.gap) < kFaded * both.upper.length) return false;
   const bool upper_shorter = both.gap < 0;
@@ -164,7 +164,7 @@ bool ShorterOneFades(const Comparison& both, const Blades& blades) {
 // end without any, where the likely one is a shadow's.
 void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
-    const Comparison both = Compare(scale, pivot, *blades, upper, lower);
+    const EndComparison both = Compare(scale, pivot, *blades, upper, lower);
     const bool alike = both.Outwards() && !both.Contradicts();
     return alike ? both.Likeness() * (upper.evidence + lower.evidence) : 0;
   };
@@ -194,7 +194,7 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   const auto compare = [&] {
     return Compare(scale, pivot, *blades, blades->upper.end, blades->lower.end);
   };
-  const Comparison both = compare();
+  const EndComparison both = compare();
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
   const bool upper_seen = blades->upper.end.arc_seen, lower_seen = blades->lower.end.arc_seen;
