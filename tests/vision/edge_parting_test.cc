@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "measured_blades.h"
+#include "vision/pivot/pivot_geometry.h"
+#include "vision/scissors/edge_difference.h"
 
 namespace bladecurve {
 namespace {
@@ -28,8 +30,9 @@ void LeadAstray(Measured* measured,
                 LocatedBlade* blade,
                 bool at_tip,
                 Course course = Course::kAway,
-                double share = 0.22) {
-  constexpr double kBack = 0.1, kMostPx = -8;
+                double share = 0.22,
+                double most_px = 8) {
+  constexpr double kBack = 0.1;
   std::vector<LocatedEdgePoint>& points = blade->edge.points;
   const auto count = static_cast<double>(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -39,7 +42,7 @@ void LeadAstray(Measured* measured,
     const double back = std::clamp((from_end - kBack) / (share - kBack), 0.0, 1.0);
     const double away =
         course == Course::kAway ? 1 - from_end / share : std::sin(std::numbers::pi * back);
-    const Vector2d shift = kMostPx * away * points[i].normal;
+    const Vector2d shift = -most_px * away * points[i].normal;
     points[i].point_px += shift;
     points[i].trend_px += shift;
   }
@@ -147,6 +150,21 @@ TEST(CutWhereEdgesPart, LeavesEdgesThatPartOverMuchOfTheirLength) {
   EXPECT_TRUE(measured.blades.edges_part);
 }
 
+// The other edge may be seen further into the crotch, which says nothing against the cut.
+TEST(CutWhereEdgesPart, CutsAnEdgeThatBeginsLaterThanTheOther) {
+  constexpr double kClosePx = 1.2, kUnseen = 0.18, kShare = 0.4;
+  Measured measured{SceneWithMarkers()};
+  LocatedBlade& upper = measured.blades.upper;
+  const auto unseen =
+      static_cast<std::size_t>(kUnseen * static_cast<double>(upper.edge.points.size()));
+  for (std::size_t i = 0; i < unseen; ++i) upper.edge.points[i].inlier = false;
+  LeadAstray(&measured, &upper, false, Course::kAway, kShare);
+  ASSERT_GT(FarthestFrom(measured.truth.upper, upper), 2 * kClosePx);
+  CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
+  EXPECT_LT(FarthestFrom(measured.truth.upper, upper), kClosePx);
+  EXPECT_FALSE(measured.blades.edges_part);
+}
+
 // One edge as a whole aside of its place: nobody knows which, let alone whose end is astray.
 TEST(CutWhereEdgesPart, LeavesEdgesThatAreNoMirrorImages) {
   constexpr double kAsidePx = 16;
@@ -156,6 +174,39 @@ TEST(CutWhereEdgesPart, LeavesEdgesThatAreNoMirrorImages) {
   const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
   CutWhereEdgesPart(measured.View(), measured.pivot, &measured.blades);
   EXPECT_EQ(PointsOf(measured.blades.upper), upper);
+}
+
+void CompareEdges(Measured* measured) {
+  measured->pivot.asymmetry = AsymmetryOf(
+      measured->View(), measured->pivot, measured->blades.upper, measured->blades.lower);
+}
+
+TEST(CutUnlikeEnds, MakesEdgesAlikeOfWhichOneLeavesItsCourseAtTheCrotch) {
+  constexpr double kClosePx = 1.2, kMostPx = 30, kShare = 0.25;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LeadAstray(&measured, &measured.Blade(upper), false, Course::kAway, kShare, kMostPx);
+    CompareEdges(&measured);
+    ASSERT_TRUE(AreUnlike(measured.pivot.asymmetry));
+    CutUnlikeEnds(measured.View(), &measured.pivot, &measured.blades);
+    EXPECT_TRUE(AreAlike(measured.pivot.asymmetry)) << upper;
+    EXPECT_LT(FarthestFrom(measured.TrueEdge(upper), measured.Blade(upper)), kClosePx) << upper;
+  }
+}
+
+// What is left of edges that differ from end to end is unlike still.
+TEST(CutUnlikeEnds, LeavesEdgesOfWhichOneIsMisplaced) {
+  constexpr double kAsidePx = 16;
+  Measured measured{SceneWithMarkers()};
+  LeadAstray(&measured, &measured.blades.upper, false);
+  measured.Misplace(&measured.blades.lower, kAsidePx);
+  CompareEdges(&measured);
+  ASSERT_TRUE(AreUnlike(measured.pivot.asymmetry));
+  const double asymmetry = measured.pivot.asymmetry;
+  const std::vector<Vector2d> upper = PointsOf(measured.blades.upper);
+  CutUnlikeEnds(measured.View(), &measured.pivot, &measured.blades);
+  EXPECT_EQ(PointsOf(measured.blades.upper), upper);
+  EXPECT_EQ(measured.pivot.asymmetry, asymmetry);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "vision/pivot/edge_gap.h"
 #include "vision/refused.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_difference.h"
 
 namespace bladecurve {
 namespace {
@@ -218,11 +219,6 @@ class PartingComparison {
   WasCut Cut(const Stretch& kept, const Stretch& parting, const Stretch& strays) {
     constexpr double kMost = 0.35;    // of an edge
     constexpr double kClearly = 1.5;  // times as far
-    for (const Profile* profile : {&upper_, &lower_}) {
-      if (ShareBetween(*profile, strays.from, strays.to) <= kMost) continue;
-      blades_.edges_part = true;
-      return {};
-    }
     const auto leaves_by = [&](const Profile& profile, const LocatedBlade& blade) {
       return LeavesCourseBy(blade.edge.points,
                             Between(profile, kept.from, kept.to),
@@ -235,6 +231,13 @@ class PartingComparison {
     };
     const double upper = leaves_by(upper_, blades_.upper), lower = leaves_by(lower_, blades_.lower);
     const WasCut was_cut{upper > lower / kClearly, lower > upper / kClearly};
+    const auto too_much = [&](const Profile& profile) {
+      return ShareBetween(profile, strays.from, strays.to) > kMost;
+    };
+    if ((was_cut.upper && too_much(upper_)) || (was_cut.lower && too_much(lower_))) {
+      blades_.edges_part = true;
+      return {};
+    }
     if (was_cut.upper) cut(upper_, &blades_.upper);
     if (was_cut.lower) cut(lower_, &blades_.lower);
     return was_cut;
@@ -260,6 +263,15 @@ class PartingComparison {
   Trend trend_;
 };
 
+// Cuts the ends and trims what is left. Throws Refused where that is too little.
+WasCut CutAndTrim(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  PartingComparison comparison(LineBetween(view, pivot, *blades), blades);
+  const WasCut was_cut = comparison.CutEnds();
+  if (was_cut.upper) TrimToFree(view, &blades->upper, comparison.BeyondUpper());
+  if (was_cut.lower) TrimToFree(view, &blades->lower, comparison.BeyondLower());
+  return was_cut;
+}
+
 }  // namespace
 
 void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades) {
@@ -267,16 +279,28 @@ void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades
   const bool may_agree =
       KnowsMirror(view, pivot) ? !AreUnlike(pivot.asymmetry) : AreAlike(pivot.asymmetry);
   if (!may_agree) return;
-  const Blades before = *blades;
-  PartingComparison comparison(LineBetween(view, pivot, *blades), blades);
-  const WasCut was_cut = comparison.CutEnds();
+  Blades cut = *blades;
   try {
-    if (was_cut.upper) TrimToFree(view, &blades->upper, comparison.BeyondUpper());
-    if (was_cut.lower) TrimToFree(view, &blades->lower, comparison.BeyondLower());
+    CutAndTrim(view, pivot, &cut);
+    *blades = std::move(cut);
   } catch (const Refused&) {
-    const bool edges_part = blades->edges_part;
-    *blades = before;  // too little would be left
-    blades->edges_part = edges_part;
+    blades->edges_part = cut.edges_part;
+  }
+}
+
+void CutUnlikeEnds(const BladeView& view, Pivot* pivot, Blades* blades) {
+  constexpr double kLeft = 0.3;  // of the difference
+  if (!AssumesMirror(view, *pivot) || pivot->bent || !AreUnlike(pivot->asymmetry)) return;
+  Blades cut = *blades;
+  try {
+    const WasCut was_cut = CutAndTrim(view, *pivot, &cut);
+    if (!was_cut.upper && !was_cut.lower) return;
+    const double asymmetry = AsymmetryOf(view, *pivot, cut.upper, cut.lower);
+    if (!AreAlike(asymmetry) || std::abs(asymmetry) > kLeft * std::abs(pivot->asymmetry)) return;
+    pivot->asymmetry = asymmetry;
+    *blades = std::move(cut);
+  } catch (const Refused&) {
+    return;  // too little would be left
   }
 }
 

@@ -14,4 +14,9 @@ namespace bladecurve {
 // they stay, the latter as `edges_part`.
 void CutWhereEdgesPart(const BladeView& view, const Pivot& pivot, Blades* blades);
 
+// The same for edges that pass the pivot unlike, of which one is to be doubted or looked for anew:
+// where they are alike once such an end is cut off, that end alone was wrong. Sets
+// pivot->asymmetry then; leaves all as it is otherwise.
+void CutUnlikeEnds(const BladeView& view, Pivot* pivot, Blades* blades);
+
 }  // namespace bladecurve

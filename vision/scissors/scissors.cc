@@ -70,6 +70,7 @@ Pivot LocatePivot(const BladeView& view,
 // Edges that contradict each other or the pivot: one of them may have been taken elsewhere, where
 // the view is known, or lost.
 void Reconcile(const BladeView& view, Pivot* pivot, Blades* blades, StageLog* log) {
+  CutUnlikeEnds(view, pivot, blades);
   if (!KnowsMirror(view, *pivot) && !MayHaveLostOne(view, *pivot, *blades))
     RefuseInconsistent(*pivot, *blades);
   RelocateUnlikeEdges(view, pivot, blades);
