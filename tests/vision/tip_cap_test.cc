@@ -76,16 +76,20 @@ TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
 }
 
 // The blade with its shadow, which a lamp beyond the rings throws ahead of the tip.
-cv::Mat BladeWithShadowAhead(double radius, double ahead_px, double penumbra_px) {
-  constexpr double kGround = 200, kMetal = 110, kShadow = 0.75;  // grey, grey, share of the light
+cv::Mat BladeWithShadowAhead(double radius,
+                             double ahead_px,
+                             double penumbra_px,
+                             double metal = 110,
+                             double shade = 0.75) {  // grey; share of the light
+  constexpr double kGround = 200;                    // grey
   const cv::Mat picture = Blade(radius);
   cv::Mat blade, shadow;
   picture.convertTo(blade, CV_64F, -1.0 / 120, 200.0 / 120);  // the blade's share of each pixel
   const cv::Mat ahead = (cv::Mat_<double>(2, 3) << 1, 0, ahead_px, 0, 1, 0);
   cv::warpAffine(blade, shadow, ahead, blade.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   cv::GaussianBlur(shadow, shadow, {}, penumbra_px);
-  const cv::Mat ground = kGround * (1 - kShadow * shadow);
-  cv::Mat seen = blade * kMetal + ground.mul(1 - blade), grey;
+  const cv::Mat ground = kGround * (1 - shade * shadow);
+  cv::Mat seen = blade * metal + ground.mul(1 - blade), grey;
   seen.convertTo(grey, CV_8U);
   return grey;
 }
@@ -144,6 +148,43 @@ TEST(FollowStep, KnowsTheStepIntoANarrowShadow) {
   TipSearch search = kSearch;
   search.blur_px = kBlurPx;
   EXPECT_NEAR(FollowStep(picture, EdgeAlong(kEdge + 0.5), search).step, kShade - kBlade, 5);
+}
+
+// So far beyond the tip of a bright blade its shadow ends, along the border of which the edge was
+// followed on.
+constexpr double kFurtherPx = 24;
+const TipSearch kAtShadowsTip{kSearch.tip_px + Vector2d(kFurtherPx, 0), 8, kWidth, true};
+
+std::vector<Vector2d> EdgeIntoTheShadow() {
+  std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  for (double x = kTip + 1; x < kTip + kFurtherPx; ++x) edge.emplace_back(x, kEdge);
+  return edge;
+}
+
+// A tip too small to show an arc.
+TEST(FindDistalEnds, LeavesTheSharpShadowOfABrightBlade) {
+  constexpr double kRadius = 2, kAlong = 2, kMetal = 250, kShade = 0.4;
+  const cv::Mat picture = BladeWithShadowAhead(kRadius, kFurtherPx, 0.1, kMetal, kShade);
+  EXPECT_TRUE(FollowStep(picture, EdgeIntoTheShadow(), kAtShadowsTip).blade_ends);
+  const DistalEnd end = FindDistalEnds(picture, EdgeIntoTheShadow(), {kAtShadowsTip, 0.05}).likely;
+  EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
+}
+
+// A bevel that mirrors the ground, or a darker place: behind it there is the blade still.
+TEST(FollowStep, SeesTheBladeBehindABevelThatIsAsDarkAsTheGround) {
+  constexpr double kRadius = 10, kMetal = 250;
+  constexpr int kBevelPx = 6, kFrom = 280;
+  for (const int light : {200, 120}) {
+    cv::Mat picture = BladeWithShadowAhead(kRadius, 0, 0.1, kMetal);
+    const int edge = static_cast<int>(kEdge) + 1;
+    picture(cv::Range(edge - kBevelPx, edge), cv::Range(kFrom, static_cast<int>(kTip))) = light;
+    TipSearch search = kSearch;
+    search.reach_px = 8;
+    const FollowedStep followed = FollowStep(picture, EdgeAlong(kEdge), search);
+    ASSERT_TRUE(followed.end_px) << light;
+    EXPECT_LT(followed.end_px->x(), kFrom + 5) << light;
+    EXPECT_FALSE(followed.blade_ends) << light;
+  }
 }
 
 // The small picture lost the tip: no arc where it was presumed.
@@ -227,18 +268,32 @@ TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
 }
 
 // The shadow of a bright blade's tip ends with a step that is none of the blade's.
+DistalEnds EndsOfBrightBlade(double radius, int shadow_px, const cv::Rect& thread = {}) {
+  constexpr uchar kBright = 220, kGround = 120, kShade = 60;
+  cv::Mat wide, picture(160, 340 + shadow_px, CV_8UC1, cv::Scalar(kGround));
+  cv::copyMakeBorder(Blade(radius) < 140, wide, 0, 0, shadow_px, shadow_px, cv::BORDER_REPLICATE);
+  picture.setTo(kShade, wide.colRange(0, picture.cols));
+  picture.setTo(kBright, wide.colRange(shadow_px, shadow_px + picture.cols));
+  picture(thread) = kBright;
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() = kTip + shadow_px;
+  return FindDistalEnds(picture, EdgeAlong(kEdge), search);
+}
+
+TEST(FindDistalEnds, EndsWhereABrightBladeDoesFarBeforeItsShadow) {
+  constexpr double kRadius = 8, kAlong = 2.5;
+  const DistalEnds ends = EndsOfBrightBlade(kRadius, 30);
+  EXPECT_NEAR(ends.likely.point_px.x(), kTip - kRadius, kAlong);
+  EXPECT_GT(ends.likely.evidence, 0);
+}
+
+// With something bright in the shadow nobody knows whether the blade goes on.
 TEST(FindDistalEnds, BelievesNoArcThatStepsTheOtherWay) {
   constexpr double kRadius = 8, kAlong = 2.5;
   constexpr int kShadowPx = 30;
-  constexpr uchar kBright = 220, kGround = 120, kShade = 60;
-  cv::Mat wide, picture(160, 340 + kShadowPx, CV_8UC1, cv::Scalar(kGround));
-  cv::copyMakeBorder(Blade(kRadius) < 140, wide, 0, 0, kShadowPx, kShadowPx, cv::BORDER_REPLICATE);
-  picture.setTo(kShade, wide.colRange(0, picture.cols));
-  picture.setTo(kBright, wide.colRange(kShadowPx, kShadowPx + picture.cols));
-  cv::GaussianBlur(picture, picture, {}, 0.8);
-  EndSearch search{kSearch, 0.05};
-  search.tip.tip_px.x() = kTip + kShadowPx;
-  const DistalEnds ends = FindDistalEnds(picture, EdgeAlong(kEdge), search);
+  const cv::Rect thread(static_cast<int>(kTip) + 6, static_cast<int>(kEdge) - 16, 5, 10);
+  const DistalEnds ends = EndsOfBrightBlade(kRadius, kShadowPx, thread);
   EXPECT_NEAR(ends.likely.point_px.x(), kTip + kShadowPx - kRadius, kAlong);
   EXPECT_EQ(ends.likely.evidence, 0);
   const auto is_at_tip = [&](const DistalEnd& end) {

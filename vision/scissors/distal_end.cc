@@ -215,6 +215,18 @@ std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
   return ends;
 }
 
+// The ends of a blade that ends at a place before the presumed tip, which is that of its shadow.
+DistalEnds EndsBeforeShadow(const cv::Mat& grey,
+                            std::vector<Vector2d> edge,
+                            EndSearch search,
+                            const Vector2d& place_px) {
+  const Vector2d along = AlongChord(edge);
+  while (edge.size() > kFewestEdgePoints && (edge.back() - place_px).dot(along) > 0)
+    edge.pop_back();
+  search.tip.tip_px = place_px;
+  return FindDistalEnds(grey, edge, search);
+}
+
 }  // namespace
 
 DistalEnds FindDistalEnds(const cv::Mat& grey,
@@ -227,6 +239,9 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const FollowedStep followed = FollowStep(grey, edge, search.tip);
+  const bool of_blade = cap && cap->step * followed.step > 0;
+  if (followed.blade_ends && !of_blade)
+    return EndsBeforeShadow(grey, edge, search, *followed.end_px);
   const bool clear = cap && cap->scatter_px < kClearArc && !IsFaint(*cap, followed.step);
   const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
   const auto and_rival = [&](std::vector<DistalEnd> ends) {

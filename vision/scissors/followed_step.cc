@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/followed_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vision/image/bilinear.h"
@@ -34,33 +35,113 @@ std::optional<double> StepAcross(const cv::Mat& grey,
   return step / kPlaces;
 }
 
+// Typical step from one position to another; 0 out of the picture.
+double StepBetween(
+    const cv::Mat& grey, const EdgeAxis& axis, double from, double to, double blur_px) {
+  std::vector<double> steps;
+  for (double t = from; t < to; ++t) {
+    if (const auto step = StepAcross(grey, axis, t, blur_px)) steps.push_back(*step);
+  }
+  return steps.empty() ? 0 : Median(steps);
+}
+
+// Light at a depth inside the edge, a little way along it averaged. std::nullopt out of the
+// picture.
+std::optional<double> LightAt(const cv::Mat& grey,
+                              const EdgeAxis& axis,
+                              double position,
+                              double depth) {
+  constexpr double kToEitherSide = 1.5, kSpacing = 0.5;  // px
+  double sum = 0;
+  int count = 0;
+  for (double along = -kToEitherSide; along <= kToEitherSide; along += kSpacing, ++count) {
+    const Vector2d p = axis.At(position + along, depth);
+    if (!LiesWithin(grey, p)) return std::nullopt;
+    sum += Bilinear<uchar>(grey, p);
+  }
+  return sum / count;
+}
+
+// Whether a bright blade ends at a position before the presumed tip: inside the edge continued,
+// next to nothing is as bright as the blade before, or brighter than the ground outside, as a blade
+// is behind a bevel that mirrors the ground. `step`: from the blade out, negative.
+bool BrightBladeEndsAt(const cv::Mat& grey,
+                       const EdgeAxis& axis,
+                       double position,
+                       const TipSearch& search,
+                       double step) {
+  constexpr double kOff = 3;                     // standard deviations of the blur, off the edge
+  constexpr double kShare = 0.4;                 // of the step is a difference
+  constexpr double kClear = 3, kFewest = 8;      // px beyond; the tip's arc and its blur
+  constexpr double kBefore = 20;                 // px
+  constexpr double kDeepest = 0.5, kMost = 0.1;  // of the blade's width; of the places beyond
+  const double to = axis.PositionOf(search.tip_px);
+  if (to - position < kClear + std::max(kFewest, search.reach_px)) return false;
+  const double off = kOff * std::sqrt(TotalBlurVariance(search.blur_px)), differs = kShare * -step;
+  std::vector<double> before;
+  for (double t = position - kBefore; t < position - kClear; ++t) {
+    if (const auto light = LightAt(grey, axis, t, off)) before.push_back(*light);
+  }
+  if (before.empty()) return false;
+  const double blade = Median(before);
+  const auto is_blade = [&](double t) {
+    const auto outside = LightAt(grey, axis, t, -off);
+    if (!outside) return true;
+    for (double depth = off; depth < kDeepest * search.blade_width_px; ++depth) {
+      const auto inside = LightAt(grey, axis, t, depth);
+      if (!inside || *inside > *outside + differs || std::abs(*inside - blade) < differs)
+        return true;
+    }
+    return false;
+  };
+  double places = 0, of_blade = 0;
+  for (double t = position + kClear; t < to; ++t, ++places) of_blade += is_blade(t);
+  return of_blade < kMost * places;
+}
+
+// Follows a step like the usual one from a share of the edge's length on.
+FollowedStep Follow(const cv::Mat& grey,
+                    const EdgeAxis& axis,
+                    double last,
+                    double from,
+                    double usual,
+                    const TipSearch& search) {
+  constexpr double kShare = 0.4;     // of the step there is still a step
+  constexpr double kLost = 8;        // px without one
+  constexpr double kFurthest = 1.5;  // edge's lengths
+  double seen = from * last;
+  for (double t = seen; t < kFurthest * last; ++t) {
+    const auto step = StepAcross(grey, axis, t, search.blur_px);
+    if (!step) return {usual, std::nullopt};
+    if (*step / usual > kShare) seen = t;
+    if (t - seen > kLost) {
+      const bool ends = usual < 0 && BrightBladeEndsAt(grey, axis, seen, search, usual);
+      return {usual, axis.At(seen, 0), ends};
+    }
+  }
+  return {usual, std::nullopt};
+}
+
 }  // namespace
 
 FollowedStep FollowStep(const cv::Mat& grey,
                         const std::vector<Vector2d>& edge,
                         const TipSearch& search) {
-  constexpr double kLastPart = 0.2;  // of the edge's length
-  constexpr double kShare = 0.4;     // of the step there is still a step
-  constexpr double kLost = 8;        // px without one
+  constexpr double kMiddle = 0.5, kLastPart = 0.8;  // from there on, of the edge's length
   constexpr double kLeastGrey = 8;
-  constexpr double kFurthest = 1.5;  // edge's lengths
   if (edge.size() < kFewestEdgePoints) return {};
   const EdgeAxis axis(edge, search.tip_px, search.blade_on_left);
   const double last = axis.PositionOf(edge.back());
-  std::vector<double> steps;
-  for (double t = (1 - kLastPart) * last; t < last; ++t) {
-    if (const auto step = StepAcross(grey, axis, t, search.blur_px)) steps.push_back(*step);
+  const auto usual_from = [&](double from, double to) {
+    return StepBetween(grey, axis, from * last, to * last, search.blur_px);
+  };
+  const double late = usual_from(kLastPart, 1), early = usual_from(kMiddle, kLastPart);
+  if (early < -kLeastGrey && late > 0) {
+    const FollowedStep turned = Follow(grey, axis, last, kMiddle, early, search);
+    if (turned.blade_ends) return turned;
   }
-  const double usual = Median(steps);
-  if (!(std::abs(usual) > kLeastGrey)) return {};
-  double seen = (1 - kLastPart) * last;
-  for (double t = seen; t < kFurthest * last; ++t) {
-    const auto step = StepAcross(grey, axis, t, search.blur_px);
-    if (!step) return {usual, std::nullopt};
-    if (*step / usual > kShare) seen = t;
-    if (t - seen > kLost) return {usual, axis.At(seen, 0)};
-  }
-  return {usual, std::nullopt};
+  if (!(std::abs(late) > kLeastGrey)) return {};
+  return Follow(grey, axis, last, kLastPart, late, search);
 }
 
 }  // namespace bladecurve
