@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "vision/edge/edge_curve.h"
-#include "vision/image/robust_statistics.h"
 #include "vision/pivot/edge_gap.h"
 #include "vision/refused.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/gap_trend.h"
 
 namespace bladecurve {
 namespace {
@@ -43,72 +43,6 @@ Profile ProfileOf(const MirrorLine& line, const LocatedBlade& blade) {
     profile.index.push_back(i);
   }
   return profile;
-}
-
-// What the gap follows over its middle, clear of crotch and tips, and how far it is off that
-// everywhere.
-struct Trend {
-  GapCourse course;
-  std::vector<double> off;
-  double scatter = 0;  // over the middle
-};
-
-// A straight line (terms: 2) or a parabola (3).
-Trend TrendOf(const EdgeGap& gap, Eigen::Index terms) {
-  constexpr double kFrom = 0.2, kTo = 0.7;  // shares of the gap's length
-  constexpr int kRounds = 4;
-  constexpr double kFar = 3;  // scatters
-  const auto at = [&](double share) {
-    return static_cast<std::size_t>(share * static_cast<double>(gap.along.size()));
-  };
-  Trend trend;
-  trend.course.origin = gap.along[at(0.5 * (kFrom + kTo))];
-  trend.course.length = gap.along.back() - gap.along.front();
-  trend.scatter = std::numeric_limits<double>::infinity();
-  trend.off.assign(gap.along.size(), 0.0);
-  for (int round = 0; round < kRounds; ++round) {
-    trend.course.Fit(gap, terms, [&](std::size_t i) {
-      return i >= at(kFrom) && i < at(kTo) && std::abs(trend.off[i]) <= kFar * trend.scatter;
-    });
-    for (std::size_t i = 0; i < gap.along.size(); ++i)
-      trend.off[i] = gap.apart[i] - trend.course.At(gap.along[i]);
-    const auto middle = [&](double share) {
-      return trend.off.begin() + static_cast<std::ptrdiff_t>(at(share));
-    };
-    trend.scatter = kSigmaPerMedian * MedianAbsolute({middle(kFrom), middle(kTo)});
-  }
-  return trend;
-}
-
-// Median of each value and its neighbours: single strays aside.
-std::vector<double> Smoothed(const std::vector<double>& values) {
-  constexpr std::ptrdiff_t kReach = 4;
-  std::vector<double> smooth;
-  const auto count = static_cast<std::ptrdiff_t>(values.size());
-  for (std::ptrdiff_t i = 0; i < count; ++i) {
-    smooth.push_back(Median({values.begin() + std::max<std::ptrdiff_t>(0, i - kReach),
-                             values.begin() + std::min(count, i + kReach + 1)}));
-  }
-  return smooth;
-}
-
-// How many of the values, counted from the first, lie beyond where they leave zero, as seen from
-// their middle: first by half of `tolerance`, then by all of it. An edge may come back at its end.
-template <typename Iterator>
-std::size_t CountOff(Iterator first, Iterator last, double tolerance) {
-  const auto middle = first + std::distance(first, last) / 2;
-  std::size_t count = 0;
-  for (auto value = middle; value != first;) {
-    --value;
-    const double off = std::abs(*value);
-    if (off <= 0.5 * tolerance) {
-      count = 0;
-    } else if (count == 0) {
-      count = static_cast<std::size_t>(std::distance(first, value)) + 1;
-    }
-    if (off > tolerance) return count;
-  }
-  return 0;
 }
 
 // The points of an edge from one place along the mirror line to another.
@@ -150,10 +84,10 @@ class PartingComparison {
     constexpr double kCloser = 1.0 / 3, kFewer = 0.5;  // of the straight line's scatter and strays
     if (gap_.along.size() < kFewest) return {};
     trend_ = TrendOf(gap_, 2);
-    Parting parting = PartingFrom(trend_);
+    Parting parting = PartingOff(trend_);
     if (parting.Count() == 0) return {};
     const Trend bent = TrendOf(gap_, 3);
-    const Parting from_bent = PartingFrom(bent);
+    const Parting from_bent = PartingOff(bent);
     if (bent.scatter < kCloser * trend_.scatter && from_bent.Count() < kFewer * parting.Count()) {
       trend_ = bent;
       parting = from_bent;
@@ -177,19 +111,11 @@ class PartingComparison {
     lower_ = ProfileOf(line_, blades_.lower);
   }
 
-  // How many places of the gap at either end lie off a trend.
-  struct Parting {
-    std::size_t tip = 0, crotch = 0;
-    [[nodiscard]] double Count() const { return static_cast<double>(tip + crotch); }
-  };
-  [[nodiscard]] Parting PartingFrom(const Trend& trend) const {
+  [[nodiscard]] Parting PartingOff(const Trend& trend) const {
     constexpr double kTolerancePx = 1, kScatters = 4;
     const Vector2d pivot_px = line_.map.ImageFromPlane(line_.pivot);
     const double per_px = std::sqrt(std::abs(line_.map.JacobianAt(pivot_px).determinant()));
-    const double tolerance = kTolerancePx * per_px + kScatters * trend.scatter;
-    const std::vector<double> off = Smoothed(trend.off);
-    return {CountOff(off.rbegin(), off.rend(), tolerance),
-            CountOff(off.begin(), off.end(), tolerance)};
+    return PartingFrom(trend, kTolerancePx * per_px + kScatters * trend.scatter);
   }
 
   // A tenth of the gap from either end, which the course of what is kept does not need.
