@@ -10,6 +10,8 @@
 
 namespace bladecurve {
 
+inline constexpr double kMmPerInch = 25.4;
+
 // What a file says beside its pixels.
 struct PhotoMetadata {
   std::string format;                     // "jpeg", "png", "tiff", "heic"

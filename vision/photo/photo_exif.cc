@@ -8,11 +8,12 @@
 #include <memory>
 #include <string>
 
+#include "vision/photo/photo.h"
+
 namespace bladecurve {
 namespace {
 
 constexpr double kFilmDiagonalMm = 43.2666;  // 36 x 24 mm
-constexpr double kMmPerInch = 25.4;
 // Rejects EXIF blocks that no JPEG segment could hold and that libexif would copy.
 constexpr size_t kMaxBlock = 1 << 20;
 

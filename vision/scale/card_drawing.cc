@@ -6,8 +6,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/photo/photo.h"
 #include "vision/scale/marker_detector.h"
-#include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {

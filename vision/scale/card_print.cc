@@ -3,12 +3,13 @@
 // Cards as SVG and PDF: both hold rectangles and text only, so they are written by hand.
 #include <charconv>
 
+#include "vision/photo/photo.h"
 #include "vision/scale/card_drawing.h"
 
 namespace bladecurve {
 namespace {
 
-constexpr double kPointsPerMm = 72 / 25.4;
+constexpr double kPointsPerMm = 72 / kMmPerInch;
 
 // Shortest text that reads back exactly, never with an exponent: PDF knows none.
 std::string Number(double value) {

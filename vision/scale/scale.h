@@ -17,8 +17,6 @@
 
 namespace bladecurve {
 
-inline constexpr double kMmPerInch = 25.4;
-
 // How well users know a height that they measure with a caliper or a ruler, standard uncertainty.
 inline constexpr double kGivenHeightSigmaMm = 0.1;
 

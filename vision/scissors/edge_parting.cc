@@ -143,7 +143,7 @@ class PartingComparison {
   // Cuts off the edge that leaves its own course there, or off both. Continued further, a course
   // says little; edges that part over so much are no mirror images.
   WasCut Cut(const Stretch& kept, const Stretch& parting, const Stretch& strays) {
-    constexpr double kMost = 0.35;    // of an edge
+    constexpr double kMost = 0.35;    // of the edge that is cut
     constexpr double kClearly = 1.5;  // times as far
     const auto leaves_by = [&](const Profile& profile, const LocatedBlade& blade) {
       return LeavesCourseBy(blade.edge.points,

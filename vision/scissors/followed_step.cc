@@ -99,18 +99,17 @@ bool BrightBladeEndsAt(const cv::Mat& grey,
   return of_blade < kMost * places;
 }
 
-// Follows a step like the usual one from a share of the edge's length on.
+// Follows a step like the usual one from one position on, at most to another.
 FollowedStep Follow(const cv::Mat& grey,
                     const EdgeAxis& axis,
-                    double last,
                     double from,
+                    double to,
                     double usual,
                     const TipSearch& search) {
-  constexpr double kShare = 0.4;     // of the step there is still a step
-  constexpr double kLost = 8;        // px without one
-  constexpr double kFurthest = 1.5;  // edge's lengths
-  double seen = from * last;
-  for (double t = seen; t < kFurthest * last; ++t) {
+  constexpr double kShare = 0.4;  // of the step there is still a step
+  constexpr double kLost = 8;     // px without one
+  double seen = from;
+  for (double t = from; t < to; ++t) {
     const auto step = StepAcross(grey, axis, t, search.blur_px);
     if (!step) return {usual, std::nullopt};
     if (*step / usual > kShare) seen = t;
@@ -127,21 +126,22 @@ FollowedStep Follow(const cv::Mat& grey,
 FollowedStep FollowStep(const cv::Mat& grey,
                         const std::vector<Vector2d>& edge,
                         const TipSearch& search) {
-  constexpr double kMiddle = 0.5, kLastPart = 0.8;  // from there on, of the edge's length
+  constexpr double kMiddle = 0.5, kLastPart = 0.8, kFurthest = 1.5;  // of the edge's length
   constexpr double kLeastGrey = 8;
   if (edge.size() < kFewestEdgePoints) return {};
   const EdgeAxis axis(edge, search.tip_px, search.blade_on_left);
   const double last = axis.PositionOf(edge.back());
-  const auto usual_from = [&](double from, double to) {
-    return StepBetween(grey, axis, from * last, to * last, search.blur_px);
-  };
-  const double late = usual_from(kLastPart, 1), early = usual_from(kMiddle, kLastPart);
-  if (early < -kLeastGrey && late > 0) {
-    const FollowedStep turned = Follow(grey, axis, last, kMiddle, early, search);
-    if (turned.blade_ends) return turned;
+  const double middle = kMiddle * last, last_part = kLastPart * last, furthest = kFurthest * last;
+  const double late = StepBetween(grey, axis, last_part, last, search.blur_px);
+  if (late > 0) {
+    const double early = StepBetween(grey, axis, middle, last_part, search.blur_px);
+    if (early < -kLeastGrey) {
+      const FollowedStep turned = Follow(grey, axis, middle, furthest, early, search);
+      if (turned.blade_ends) return turned;
+    }
   }
   if (!(std::abs(late) > kLeastGrey)) return {};
-  return Follow(grey, axis, last, kLastPart, late, search);
+  return Follow(grey, axis, last_part, furthest, late, search);
 }
 
 }  // namespace bladecurve
