@@ -3,6 +3,7 @@
 #include "vision/square_images.h"
 
 #include <cmath>
+#include <vector>
 
 #include "vision/scale/marker_detector.h"
 
@@ -11,9 +12,20 @@ namespace {
 
 constexpr int kPattern = 4, kCells = 6;  // of a marker, on a side; the border counts as cells
 
-double NormalIntegral(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double NormalIntegral(double z) {
+  constexpr double kFar = 9;  // from there on a double tells no difference
+  return std::abs(z) > kFar ? (z > 0 ? 1 : 0) : 0.5 * std::erfc(-z / std::sqrt(2.0));
+}
 
-// Light missing at a point: 1 deep inside the square.
+const std::array<bool, kPattern * kPattern>& CellsOf(int id) {
+  static const std::vector all = [] {
+    std::vector<std::array<bool, kPattern * kPattern>> cells;
+    for (int i = 0; i < kDictionarySize; ++i) cells.push_back(MarkerCells(i));
+    return cells;
+  }();
+  return all[static_cast<size_t>(id)];
+}
+
 // What a blurred slab from `low` to `high` lets through at u.
 double Slab(double u, double low, double high, double sigma) {
   return NormalIntegral((u - low) / sigma) - NormalIntegral((u - high) / sigma);
@@ -57,7 +69,7 @@ double Inside(const SquareImage& image, const Eigen::Vector2d& sides, double sig
   const double sigma = sigma_px / image.side_px;
   const double square = Slab(sides.x(), -0.5, 0.5, sigma) * Slab(sides.y(), -0.5, 0.5, sigma);
   if (!image.marker) return square;
-  const std::array<bool, 16> paper = MarkerCells(*image.marker);
+  const std::array<bool, kPattern* kPattern>& paper = CellsOf(*image.marker);
   std::array<double, kPattern> across{}, down{};
   for (int i = 0; i < kPattern; ++i) {
     const double low = (i + 1.0) / kCells - 0.5, high = low + 1.0 / kCells;
