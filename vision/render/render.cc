@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string>
 
@@ -116,9 +117,11 @@ void RenderTile(const Stage& stage,
   for (auto layer = present.rbegin(); layer != present.rend(); ++layer) {
     const cv::Mat1f coverage = render::PolygonCoverage((*layer)->polygon, grid);
     const cv::Mat1f visible = uncovered.mul(coverage);
+    if (cv::countNonZero(visible) == 0) continue;
     uncovered -= visible;
     AddWeighted(render::IntegratePixels(visible, kernel), (*layer)->colour, tile, picture);
   }
+  if (cv::countNonZero(uncovered) == 0) return;
   AddWeighted(
       render::IntegratePixels(uncovered, kernel),
       [&stage](const Eigen::Vector2d& px) { return stage.sheet().ColourAt(px); },

@@ -39,6 +39,7 @@ Eigen::Vector2d Camera::WorldFromPixel(const Eigen::Vector2d& px, double height_
     constexpr int kNewtonSteps = 4;  // quadratic convergence from |k1 r^2| < 0.1
     for (int i = 0; i < kNewtonSteps; ++i) {
       const double error = radius * (1 + truth_.k1 * radius * radius) - bent_radius;
+      if (error == 0) break;
       radius -= error / (1 + 3 * truth_.k1 * radius * radius);
     }
   }
