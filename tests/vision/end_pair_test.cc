@@ -101,6 +101,18 @@ TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   }
 }
 
+// An arc at the tip, and one beyond the other tip across which light steps the other way.
+TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsNoShadows) {
+  constexpr double kShadow = 15;  // px
+  Blades blades{BladeOnRay(true, kLength + kShadow, 1, true), BladeOnRay(false, kLength, 1, true)};
+  blades.upper.end.evidence = 0;
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_GT(blades.upper.end.along_sigma_px, 1) << "it is not seen there";
+  EXPECT_TRUE(blades.ends_contradict);
+}
+
 // A tip that fades into its ground ends early; nothing makes one end late as clearly.
 TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsMoreClearly) {
   constexpr double kFaded = kLength - 35;  // px

@@ -170,6 +170,46 @@ TEST(FindDistalEnds, LeavesTheSharpShadowOfABrightBlade) {
   EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
 }
 
+// A dark blade in the sun; its shadow lies beside the edge continued, and ends further on.
+cv::Mat DarkBladeWithShadowAside(double radius, double further_px, double aside_px) {
+  constexpr double kShade = 70;  // grey, darker than the blade
+  const cv::Mat blade = Blade(radius);
+  const cv::Mat moved = (cv::Mat_<double>(2, 3) << 1, 0, further_px, 0, 1, -aside_px);
+  cv::Mat shadow, picture = blade.clone();
+  cv::warpAffine(blade, shadow, moved, blade.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    if (value > 190 && shadow.at<uchar>(at[0], at[1]) < 190) value = kShade;
+  });
+  return picture;
+}
+
+TEST(FindDistalEnds, LeavesTheShadowBesideTheTipOfADarkBlade) {
+  constexpr double kRadius = 6, kAside = 14, kAlong = 2.5;
+  const cv::Mat picture = DarkBladeWithShadowAside(kRadius, kFurtherPx, kAside);
+  TipSearch search = kAtShadowsTip;
+  search.tip_px.y() -= kAside;
+  EXPECT_TRUE(FollowStep(picture, EdgeAlong(kEdge), search).blade_ends);
+  const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), {search, 0.05}).likely;
+  EXPECT_TRUE(end.arc_seen);
+  EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
+}
+
+// The body of the blade tapers off to meet the edge where the bevel before it mirrors the ground.
+TEST(FollowStep, SeesTheDarkBladeBehindABevelThatIsAsBrightAsTheGround) {
+  constexpr int kBevelPx = 9, kFrom = 255, kGround = 200;
+  cv::Mat picture = Blade(6);
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    const double taper = (kTip - at[1]) / (kTip - kFrom);
+    if (at[1] > kFrom && at[0] > kEdge - kBevelPx * taper) value = kGround;
+  });
+  TipSearch search = kSearch;
+  search.reach_px = 8;
+  const FollowedStep followed = FollowStep(picture, EdgeAlong(kEdge), search);
+  ASSERT_TRUE(followed.end_px);
+  EXPECT_LT(followed.end_px->x(), kFrom + 5);
+  EXPECT_FALSE(followed.blade_ends);
+}
+
 // A bevel that mirrors the ground, or a darker place: behind it there is the blade still.
 TEST(FollowStep, SeesTheBladeBehindABevelThatIsAsDarkAsTheGround) {
   constexpr double kRadius = 10, kMetal = 250;

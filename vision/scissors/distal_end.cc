@@ -166,6 +166,14 @@ bool IsFaint(const TipCap& cap, double edge_step) {
   return std::abs(cap.step) < kFaint * std::abs(edge_step);
 }
 
+// Whether light changes across an arc as it does across the edge, and the arc is that of a tip.
+bool IsLikeEdge(const TipCap& cap, double edge_step) {
+  constexpr double kLeast = 0.7, kMost = 1.4;  // of the edge's step
+  constexpr double kRound = 0.3;               // px of scatter
+  const double share = cap.step / edge_step;
+  return share > kLeast && share < kMost && cap.scatter_px < kRound;
+}
+
 // The arc at another place than the presumed tip, if it is clear.
 std::optional<TipCap> ClearCapAt(const Vector2d& place_px,
                                  const cv::Mat& grey,
@@ -215,6 +223,16 @@ std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
   return ends;
 }
 
+// What denies that the blade ends where the step across its edge does, before the presumed tip: of
+// a bright one, an arc at that tip at which light falls; of a dark one, that no arc like its edge
+// is seen where the step ends.
+bool IsDenied(const FollowedStep& followed,
+              const std::optional<TipCap>& at_tip,
+              const std::optional<TipCap>& at_step_end) {
+  if (followed.step < 0) return at_tip && at_tip->step < 0;
+  return !at_step_end || !IsLikeEdge(*at_step_end, followed.step);
+}
+
 // The ends of a blade that ends at a place before the presumed tip, which is that of its shadow.
 DistalEnds EndsBeforeShadow(const cv::Mat& grey,
                             std::vector<Vector2d> edge,
@@ -239,11 +257,10 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
   const FollowedStep followed = FollowStep(grey, edge, search.tip);
-  const bool of_blade = cap && cap->step * followed.step > 0;
-  if (followed.blade_ends && !of_blade)
+  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
+  if (followed.blade_ends && !IsDenied(followed, cap, rival))
     return EndsBeforeShadow(grey, edge, search, *followed.end_px);
   const bool clear = cap && cap->scatter_px < kClearArc && !IsFaint(*cap, followed.step);
-  const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
   const auto and_rival = [&](std::vector<DistalEnd> ends) {
     if (rival) ends.push_back(EndAtSeenCap(edge, *rival, followed.step));
     return ends;

@@ -136,6 +136,9 @@ void DoubtBoth(const EndComparison& both, Blades* blades) {
 // Whether an arc is seen across which the picture steps the other way than across the edge.
 bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
 
+// How far an end is to be believed: by no arc, by one that may be the shadow's, by one that is not.
+int Rank(const DistalEnd& end) { return IsShadows(end) ? 1 : 2 * int{end.arc_seen}; }
+
 // One arc in ten of that kind is the shadow's indeed, up to 6 % of the length off.
 void DoubtShadowsArc(const Pivot& pivot, LocatedBlade* blade) {
   constexpr double kOff = 0.02;  // of the length, standard
@@ -197,11 +200,11 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   const EndComparison both = compare();
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
-  const bool upper_seen = blades->upper.end.arc_seen, lower_seen = blades->lower.end.arc_seen;
+  const int upper_rank = Rank(blades->upper.end), lower_rank = Rank(blades->lower.end);
   if (scale.sheet && ShorterOneFades(both, *blades)) return Follow(both, both.gap < 0, blades);
   if (scale.sheet && blades->ends_contradict) {
-    if (upper_seen == lower_seen) return DoubtBoth(both, blades);
-    return Follow(both, lower_seen, blades);
+    if (upper_rank == lower_rank) return DoubtBoth(both, blades);
+    return Follow(both, lower_rank > upper_rank, blades);
   }
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   if (scale.sheet) Fuse(compare(), blades);

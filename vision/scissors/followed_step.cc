@@ -62,41 +62,80 @@ std::optional<double> LightAt(const cv::Mat& grey,
   return sum / count;
 }
 
-// Whether a bright blade ends at a position before the presumed tip: inside the edge continued,
-// next to nothing is as bright as the blade before, or brighter than the ground outside, as a blade
-// is behind a bevel that mirrors the ground. `step`: from the blade out, negative.
-bool BrightBladeEndsAt(const cv::Mat& grey,
-                       const EdgeAxis& axis,
-                       double position,
-                       const TipSearch& search,
-                       double step) {
-  constexpr double kOff = 3;                     // standard deviations of the blur, off the edge
-  constexpr double kShare = 0.4;                 // of the step is a difference
-  constexpr double kClear = 3, kFewest = 8;      // px beyond; the tip's arc and its blur
-  constexpr double kBefore = 20;                 // px
-  constexpr double kDeepest = 0.5, kMost = 0.1;  // of the blade's width; of the places beyond
+// Where, beyond the end of the step across the edge, it is looked whether the blade goes on.
+struct Beyond {
+  double from = 0, to = 0;  // positions; up to the presumed tip
+  double off = 0;           // px off the edge continued
+  double differs = 0;       // grey values that are a difference
+};
+
+// std::nullopt where the presumed tip is too near to tell.
+std::optional<Beyond> LookBeyond(const EdgeAxis& axis,
+                                 double position,
+                                 double step,
+                                 const TipSearch& search) {
+  constexpr double kOff = 3;                 // standard deviations of the blur, off the edge
+  constexpr double kShare = 0.4;             // of the step is a difference
+  constexpr double kClear = 3, kFewest = 8;  // px; the tip's arc and its blur
   const double to = axis.PositionOf(search.tip_px);
-  if (to - position < kClear + std::max(kFewest, search.reach_px)) return false;
-  const double off = kOff * std::sqrt(TotalBlurVariance(search.blur_px)), differs = kShare * -step;
+  if (to - position < kClear + std::max(kFewest, search.reach_px)) return std::nullopt;
+  const double off = kOff * std::sqrt(TotalBlurVariance(search.blur_px));
+  return Beyond{position + kClear, to, off, kShare * std::abs(step)};
+}
+
+// Whether a bright blade ends before the presumed tip: inside the edge continued, next to nothing
+// is as bright as the blade before, or brighter than the ground outside, as a blade is behind a
+// bevel that mirrors the ground.
+bool BrightBladeEnds(const cv::Mat& grey,
+                     const EdgeAxis& axis,
+                     const Beyond& beyond,
+                     double blade_width_px) {
+  constexpr double kNearest = 6, kFurthest = 23;  // px before
+  constexpr double kDeepest = 0.5, kMost = 0.1;   // of the blade's width; of the places beyond
   std::vector<double> before;
-  for (double t = position - kBefore; t < position - kClear; ++t) {
-    if (const auto light = LightAt(grey, axis, t, off)) before.push_back(*light);
+  for (double t = beyond.from - kFurthest; t < beyond.from - kNearest; ++t) {
+    if (const auto light = LightAt(grey, axis, t, beyond.off)) before.push_back(*light);
   }
   if (before.empty()) return false;
   const double blade = Median(before);
   const auto is_blade = [&](double t) {
-    const auto outside = LightAt(grey, axis, t, -off);
+    const auto outside = LightAt(grey, axis, t, -beyond.off);
     if (!outside) return true;
-    for (double depth = off; depth < kDeepest * search.blade_width_px; ++depth) {
+    for (double depth = beyond.off; depth < kDeepest * blade_width_px; ++depth) {
       const auto inside = LightAt(grey, axis, t, depth);
-      if (!inside || *inside > *outside + differs || std::abs(*inside - blade) < differs)
+      if (!inside || *inside > *outside + beyond.differs ||
+          std::abs(*inside - blade) < beyond.differs)
         return true;
     }
     return false;
   };
   double places = 0, of_blade = 0;
-  for (double t = position + kClear; t < to; ++t, ++places) of_blade += is_blade(t);
+  for (double t = beyond.from; t < beyond.to; ++t, ++places) of_blade += is_blade(t);
   return of_blade < kMost * places;
+}
+
+// Whether a dark blade ends before the presumed tip, which is that of its shadow: what is dark
+// inside the edge continued keeps off it, where a blade behind a bevel that mirrors the ground
+// would taper off to meet it.
+bool DarkBladeEnds(const cv::Mat& grey,
+                   const EdgeAxis& axis,
+                   const Beyond& beyond,
+                   double blade_width_px) {
+  constexpr double kLeastGap = 0.1;  // of the blade's width
+  constexpr double kKeepsOff = 0.9;  // of the gap, further on
+  const auto gap_at = [&](double t) {
+    const auto outside = LightAt(grey, axis, t, -beyond.off);
+    for (double depth = beyond.off; outside && depth < blade_width_px; ++depth) {
+      const auto inside = LightAt(grey, axis, t, depth);
+      if (inside && *inside < *outside - beyond.differs) return depth;
+    }
+    return blade_width_px;
+  };
+  std::vector<double> near, far;
+  const double middle = 0.5 * (beyond.from + beyond.to);
+  for (double t = beyond.from; t < beyond.to; ++t) (t < middle ? near : far).push_back(gap_at(t));
+  const double gap = Median(near);
+  return gap > kLeastGap * blade_width_px && Median(far) > kKeepsOff * gap;
 }
 
 // Follows a step like the usual one from one position on, at most to another.
@@ -114,7 +153,9 @@ FollowedStep Follow(const cv::Mat& grey,
     if (!step) return {usual, std::nullopt};
     if (*step / usual > kShare) seen = t;
     if (t - seen > kLost) {
-      const bool ends = usual < 0 && BrightBladeEndsAt(grey, axis, seen, search, usual);
+      const auto blade_ends = usual < 0 ? BrightBladeEnds : DarkBladeEnds;
+      const std::optional<Beyond> beyond = LookBeyond(axis, seen, usual, search);
+      const bool ends = beyond && blade_ends(grey, axis, *beyond, search.blade_width_px);
       return {usual, axis.At(seen, 0), ends};
     }
   }

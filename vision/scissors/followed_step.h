@@ -20,8 +20,9 @@ struct FollowedStep {
   // The last point of the edge, continued, at which there is a step like that. std::nullopt where
   // it goes on to the picture's border, or stood out nowhere.
   std::optional<Eigen::Vector2d> end_px;
-  // Whether a bright blade ends there before the presumed tip: beyond, up to that, next to nothing
-  // inside the edge continued is as bright as the blade, or brighter than the ground.
+  // Whether the blade ends there before the presumed tip, which is its shadow's. A bright one:
+  // beyond, up to that, next to nothing inside the edge continued is as bright as the blade, or
+  // brighter than the ground. A dark one: what is dark beyond keeps off the edge continued.
   bool blade_ends = false;
 };
 
