@@ -9,21 +9,13 @@
 
 #include "vision/image/covariance.h"
 #include "vision/parallel.h"
-#include "vision/pivot/head_place.h"
-#include "vision/pivot/pivot_geometry.h"
+#include "vision/pivot/head_trust.h"
 #include "vision/pivot/slot_search.h"
 
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-// ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
-double Credence(const Screw& screw) {
-  constexpr double kUsualFlattening = 0.05;
-  const double sigmas = (1 - screw.semi_minor_px / screw.semi_major_px) / kUsualFlattening;
-  return screw.evidence - 0.5 * sigmas * sigmas;
-}
 
 // Heads of screws and rivets are a quarter to four fifths of the shank wide; engraved marks are
 // smaller, and what is as wide as the shank is mostly its own outline.
@@ -134,23 +126,6 @@ std::vector<std::optional<Screw>> FindInEach(const HeadSearch& known,
                      [&](int i) { return FindHere(known, searches[static_cast<std::size_t>(i)]); });
 }
 
-// ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
-// pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
-double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
-  constexpr double kSlotted = 3;
-  const PlacePx& place = known.by_geometry;
-  return screw.evidence + (screw.slot && screw.slot->ends_seen ? kSlotted : 0) -
-         0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
-}
-
-constexpr double kLeastOdds = 3;  // 20 to 1
-
-// Whether a head of which little shows lies near enough to there. In a known view the edges say
-// more, by mirroring each other about it or not.
-bool IsCredibleThere(const Screw& screw, const HeadSearch& known) {
-  return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeastOdds;
-}
-
 // What was seen at the joint; as long as that leaves doubts, also where geometry puts the pivot,
 // nearer, so that fewer other arcs compete, and further back. The clearest counts that is credible
 // where it lies.
@@ -169,46 +144,6 @@ std::optional<Screw> LookForScrew(const HeadSearch& known) {
     if (!clearest || Credence(*screw) > Credence(*clearest)) clearest = screw;
   }
   return clearest;
-}
-
-// What the edges say of a place: see EdgeAsymmetry.
-double AsymmetryAbout(const Vector2d& place_px, const HeadSearch& known) {
-  return EdgeAsymmetry(SeenFromAbove(known.scale, known.edges, place_px), place_px);
-}
-
-double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
-  return AsymmetryAbout(FootBelow(screw, known.scale, known.scene).point_px, known);
-}
-
-// Whether the edges mirror each other about a head.
-bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
-  return !AreSuspect(AsymmetryAbout(screw, known));
-}
-
-// Whether they would about a place as near to it as it is known. One that lies aside adds to one
-// edge's distance and takes from the other's.
-bool MirrorNear(const Screw& screw, const HeadSearch& known) {
-  if (!known.scale.sheet) return MirrorAbout(screw, known);
-  const PlacePx foot = FootBelow(screw, known.scale, known.scene);
-  const double length_px = 0.5 * ((known.edges.left_px.back() - foot.point_px).norm() +
-                                  (known.edges.right_px.back() - foot.point_px).norm());
-  const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
-  const double asymmetry = std::abs(AsymmetryAbout(foot.point_px, known));
-  return !AreSuspect(std::max(0.0, asymmetry - by_place));
-}
-
-// Whether they mirror each other as far as the view is known. A slanted one parts edges as well,
-// but hardly so much about what is too flat for a head.
-bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
-  constexpr double kSlanted = 0.1;
-  if (known.scale.sheet) return MirrorAbout(screw, known);
-  return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
-}
-
-// Whether it lies where the blades alone put the pivot.
-bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
-  const PlacePx& place = known.by_geometry;
-  return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < 1;
 }
 
 // Whether some of a rim shows about the ends of a head's slot.
@@ -253,26 +188,6 @@ std::vector<ScrewSearch> PiecesAlongOverlap(const HeadSearch& known) {
     pieces[i].guess_px += (static_cast<double>(i) - 1) * kApart * whole.radius_px * along;
   }
   return pieces;
-}
-
-constexpr double kFaint = 5;  // evidence of a head that something else must speak for
-
-// Whether a head near the joint is to be trusted: necks of members and engraved marks are round,
-// too, but less so than heads, and about few of them the edges mirror each other, the fewest where
-// the view is known.
-bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
-  const bool seen = screw.evidence > (known.scale.sheet ? kFaintestHead : kFaint);
-  if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
-  const bool slotted = screw.slot && screw.slot->ends_seen;
-  return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
-         MayMirrorAbout(screw, known);
-}
-
-// The same of one that is wider or smaller than usual.
-bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
-  if (screw.evidence > kUnmistakable || MirrorNear(screw, known)) return true;
-  const bool at_place = screw.evidence > kFaint && LiesWhereBladesTurn(screw, known);
-  return at_place && MayMirrorAbout(screw, known);
 }
 
 // The clearest that is sure, of what is seen in each of the searches.

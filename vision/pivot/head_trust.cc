@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot/head_trust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/image/covariance.h"
+#include "vision/pivot/head_place.h"
+#include "vision/pivot/head_search.h"
+#include "vision/pivot/pivot_geometry.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLeastOdds = 3;  // 20 to 1
+constexpr double kFaint = 5;      // evidence of a head that something else must speak for
+
+// ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
+// pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
+double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSlotted = 3;
+  const PlacePx& place = known.by_geometry;
+  return screw.evidence + (screw.slot && screw.slot->ends_seen ? kSlotted : 0) -
+         0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
+}
+
+// What the edges say of a place: see EdgeAsymmetry.
+double AsymmetryAbout(const Vector2d& place_px, const HeadSearch& known) {
+  return EdgeAsymmetry(SeenFromAbove(known.scale, known.edges, place_px), place_px);
+}
+
+double AsymmetryAbout(const Screw& screw, const HeadSearch& known) {
+  return AsymmetryAbout(FootBelow(screw, known.scale, known.scene).point_px, known);
+}
+
+// Whether the edges mirror each other about a head.
+bool MirrorAbout(const Screw& screw, const HeadSearch& known) {
+  return !AreSuspect(AsymmetryAbout(screw, known));
+}
+
+}  // namespace
+
+double Credence(const Screw& screw) {
+  constexpr double kUsualFlattening = 0.05;
+  const double sigmas = (1 - screw.semi_minor_px / screw.semi_major_px) / kUsualFlattening;
+  return screw.evidence - 0.5 * sigmas * sigmas;
+}
+
+bool IsCredibleThere(const Screw& screw, const HeadSearch& known) {
+  return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeastOdds;
+}
+
+bool MirrorNear(const Screw& screw, const HeadSearch& known) {
+  if (!known.scale.sheet) return MirrorAbout(screw, known);
+  const PlacePx foot = FootBelow(screw, known.scale, known.scene);
+  const double length_px = 0.5 * ((known.edges.left_px.back() - foot.point_px).norm() +
+                                  (known.edges.right_px.back() - foot.point_px).norm());
+  const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
+  const double asymmetry = std::abs(AsymmetryAbout(foot.point_px, known));
+  return !AreSuspect(std::max(0.0, asymmetry - by_place));
+}
+
+bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSlanted = 0.1;
+  if (known.scale.sheet) return MirrorAbout(screw, known);
+  return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
+}
+
+bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
+  const PlacePx& place = known.by_geometry;
+  return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < 1;
+}
+
+bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
+  const bool seen = screw.evidence > (known.scale.sheet ? kFaintestHead : kFaint);
+  if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
+  const bool slotted = screw.slot && screw.slot->ends_seen;
+  return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
+         MayMirrorAbout(screw, known);
+}
+
+bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
+  if (screw.evidence > kUnmistakable || MirrorNear(screw, known)) return true;
+  const bool at_place = screw.evidence > kFaint && LiesWhereBladesTurn(screw, known);
+  return at_place && MayMirrorAbout(screw, known);
+}
+
+}  // namespace bladecurve

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "vision/pivot/screw.h"
+
+namespace bladecurve {
+
+struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
+
+// ln of the odds that this is the head, fitted all round: views seldom flatten one by more.
+[[nodiscard]] double Credence(const Screw& screw);
+
+// Whether a head of which little shows lies near enough to where the blades put the pivot. In a
+// known view the edges say more, by mirroring each other about it or not.
+[[nodiscard]] bool IsCredibleThere(const Screw& screw, const HeadSearch& known);
+
+// Whether the edges mirror each other about a place as near to the head as that is known. One that
+// lies aside adds to one edge's distance and takes from the other's.
+[[nodiscard]] bool MirrorNear(const Screw& screw, const HeadSearch& known);
+
+// Whether they mirror each other as far as the view is known. A slanted one parts edges as well,
+// but hardly so much about what is too flat for a head.
+[[nodiscard]] bool MayMirrorAbout(const Screw& screw, const HeadSearch& known);
+
+// Whether it lies where the blades alone put the pivot.
+[[nodiscard]] bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known);
+
+// Whether a head near the joint is to be trusted: necks of members and engraved marks are round,
+// too, but less so than heads, and about few of them the edges mirror each other, the fewest where
+// the view is known.
+[[nodiscard]] bool IsSureAtJoint(const Screw& screw, const HeadSearch& known);
+
+// The same of one that is wider or smaller than usual.
+[[nodiscard]] bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known);
+
+}  // namespace bladecurve
