@@ -251,6 +251,23 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
+// Other lines lie where a pivot that is a little aside may put the edge.
+TEST(RelocateUnlikeEdges, IsAsSureOfADoubtfulEdgeAsThePivotIsKnown) {
+  for (const double pivot_sigma_px : {0.1, 0.7}) {
+    Measured measured{SceneWithMarkers()};
+    measured.MakeClear(&measured.blades.upper);
+    Doubt(&measured.blades.lower.edge, kLittlePx);
+    measured.pivot.covariance_px2 = pivot_sigma_px * pivot_sigma_px * Eigen::Matrix2d::Identity();
+    Relocate(&measured);
+    const LocatedEdge& edge = measured.blades.lower.edge;
+    ASSERT_NE(measured.blades.lower.moved, "");
+    ASSERT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), 0.3);
+    EXPECT_GE(edge.common_sigma_px, 1.4 * pivot_sigma_px);
+    EXPECT_LT(edge.common_sigma_px, 1.4 * pivot_sigma_px + 0.5);
+    EXPECT_GE(edge.alone_sigma_px, 1.4 * pivot_sigma_px);
+  }
+}
+
 TEST(RelocateUnlikeEdges, TakesNoDoubtfulEdgeForAMirror) {
   Measured measured{SceneWithMarkers()};
   measured.Lose(&measured.blades.upper, kLittlePx);

@@ -23,7 +23,8 @@ namespace bladecurve {
 //   be off and that lies on a faint border along its whole; if it does not either, the vaguer one
 //   is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
-//   one, if it is seen where the other puts it.
+//   one, if it is seen where the other puts it; a doubtful one then as surely as the pivot is
+//   known.
 // None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
 // not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
