@@ -251,23 +251,6 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
-// Other lines lie where a pivot that is a little aside may put the edge.
-TEST(RelocateUnlikeEdges, IsAsSureOfADoubtfulEdgeAsThePivotIsKnown) {
-  for (const double pivot_sigma_px : {0.1, 0.7}) {
-    Measured measured{SceneWithMarkers()};
-    measured.MakeClear(&measured.blades.upper);
-    Doubt(&measured.blades.lower.edge, kLittlePx);
-    measured.pivot.covariance_px2 = pivot_sigma_px * pivot_sigma_px * Eigen::Matrix2d::Identity();
-    Relocate(&measured);
-    const LocatedEdge& edge = measured.blades.lower.edge;
-    ASSERT_NE(measured.blades.lower.moved, "");
-    ASSERT_LT(FarFrom(measured.truth.lower, measured.blades.lower.used), 0.3);
-    EXPECT_GE(edge.common_sigma_px, 1.4 * pivot_sigma_px);
-    EXPECT_LT(edge.common_sigma_px, 1.4 * pivot_sigma_px + 0.5);
-    EXPECT_GE(edge.alone_sigma_px, 1.4 * pivot_sigma_px);
-  }
-}
-
 TEST(RelocateUnlikeEdges, TakesNoDoubtfulEdgeForAMirror) {
   Measured measured{SceneWithMarkers()};
   measured.Lose(&measured.blades.upper, kLittlePx);
@@ -476,6 +459,27 @@ TEST(RelocateUnlikeEdges, DoubtsBothEdgesOfUnlikeShapeWithoutMarkers) {
       EXPECT_EQ(blade->edge.alone_sigma_px > 0.1 * kBulgePx, unlike);
     }
   }
+}
+
+// A line beside the edge was taken for it where the other one put it; the crotch is cut off since.
+TEST(DoubtMovedEdges, ThatPassThePivotUnlikeByMoreThanItMayBeOff) {
+  constexpr double kOffPx = 4, kDoubt = 0.7;
+  const auto doubted = [&](double pivot_sigma_px, bool moved, bool with_markers) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    for (LocatedBlade* blade : {&upper, &measured.blades.lower}) measured.MakeClear(blade);
+    measured.Misplace(&upper, kOffPx);
+    if (moved) upper.moved = "where the other one puts it";
+    if (!with_markers) measured.scale.sheet.reset();
+    measured.pivot.covariance_px2 = pivot_sigma_px * pivot_sigma_px * Eigen::Matrix2d::Identity();
+    DoubtMovedEdges(measured.View(), measured.pivot, &measured.blades);
+    EXPECT_LT(measured.blades.lower.edge.ambiguity, kDoubt);
+    return upper.edge.ambiguity > kDoubt && upper.edge.common_sigma_px > 0.8 * kOffPx;
+  };
+  EXPECT_TRUE(doubted(0.5, true, true));
+  EXPECT_FALSE(doubted(2, true, true)) << "the pivot explains it";
+  EXPECT_FALSE(doubted(0.5, false, true)) << "it was found there by itself";
+  EXPECT_FALSE(doubted(0.5, true, false)) << "the view may explain it";
 }
 
 }  // namespace

@@ -82,6 +82,12 @@ bool PassUnlike(const Pivot& pivot) {
   return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
 }
 
+// Less certain by that much, standard, for reasons of its own.
+void AddSigma(LocatedEdge* edge, double off_px) {
+  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
+}
+
 }  // namespace
 
 double BladeLengthPx(const Pivot& pivot, const Blades& blades) {
@@ -196,11 +202,6 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
                     (seen ? "these do not mirror each other about the pivot"
                           : "no screw is seen that would confirm where the blades are") +
                     "; use another ground or softer light, or say where the screw is: --pivot X,Y");
-}
-
-void AddSigma(LocatedEdge* edge, double off_px) {
-  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
-  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
 }
 
 void Doubt(LocatedEdge* edge, double off_px) {

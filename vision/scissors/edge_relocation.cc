@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/edge_relocation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -72,22 +71,17 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   }
 }
 
-// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt; as surely as
-// the pivot is known.
+// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;  // of the ambiguity before
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
-  std::optional<RelocatedBlade> found =
+  const std::optional<RelocatedBlade> found =
       LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
   if (!found) return;
-  const LocatedEdge& before = doubtful.edge;
-  LocatedEdge& after = found->blade.edge;
-  if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
-    return;
-  // Where a pivot that lies aside may put it, another line is not ruled out.
-  AddSigma(&after, std::min(before.common_sigma_px, PartedByPivotPx(pivot, *blades)));
-  Replace(*found, kWhereMirrored, &doubtful);
+  const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
+  if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
+    Replace(*found, kWhereMirrored, &doubtful);
 }
 
 // One of two edges that pass the pivot alike but are unlike in shape, as those of hardly any blades
@@ -213,6 +207,17 @@ void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades) {
   if (!PassByPivot(pivot_before) || PassByPivot(*pivot)) return;
   *blades = blades_before;
   *pivot = pivot_before;
+}
+
+void DoubtMovedEdges(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kSigmas = 2;
+  if (!KnowsMirror(view, pivot) || pivot.bent) return;
+  const double asymmetry = AsymmetryOf(view, pivot, blades->upper, blades->lower);
+  const double off_px = ShareInPx(std::abs(asymmetry), pivot, *blades);
+  if (off_px < kSigmas * PartedByPivotPx(pivot, *blades)) return;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    if (!blade->moved.empty()) Doubt(&blade->edge, off_px);
+  }
 }
 
 }  // namespace bladecurve

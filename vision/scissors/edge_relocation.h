@@ -23,12 +23,16 @@ namespace bladecurve {
 //   be off and that lies on a faint border along its whole; if it does not either, the vaguer one
 //   is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
-//   one, if it is seen where the other puts it; a doubtful one then as surely as the pivot is
-//   known.
+//   one, if it is seen where the other puts it.
 // None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
 // not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
 // as those of scissors do stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
+
+// Once ends at which the edges part are cut off, those that mirrored each other with them may not
+// without: an edge that was moved is doubted by as much as they pass the pivot unlike, if that is
+// more than the pivot may be off. In a view of known tilt.
+void DoubtMovedEdges(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve

@@ -94,6 +94,7 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
   RefuseUnlikeEdges(pivot, view.scale(), *blades);
   RefuseUnconfirmedScene(view.scene(), view.scale(), pivot);
   CutWhereEdgesPart(view, pivot, blades);
+  DoubtMovedEdges(view, pivot, blades);
   ConfirmMirroredEdges(view, pivot, blades);
   DoubtKinkedEdges(blades);
   DoubtUnlikeEdges(pivot, blades);
