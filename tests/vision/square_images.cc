@@ -69,7 +69,7 @@ double Inside(const SquareImage& image, const Eigen::Vector2d& sides, double sig
   const double sigma = sigma_px / image.side_px;
   const double square = Slab(sides.x(), -0.5, 0.5, sigma) * Slab(sides.y(), -0.5, 0.5, sigma);
   if (!image.marker) return square;
-  const std::array<bool, kPattern* kPattern>& paper = CellsOf(*image.marker);
+  const auto& paper = CellsOf(*image.marker);
   std::array<double, kPattern> across{}, down{};
   for (int i = 0; i < kPattern; ++i) {
     const double low = (i + 1.0) / kCells - 0.5, high = low + 1.0 / kCells;

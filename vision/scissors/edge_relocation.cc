@@ -211,6 +211,7 @@ void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades) {
 
 void DoubtMovedEdges(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kSigmas = 2;
+  if (blades->upper.moved.empty() && blades->lower.moved.empty()) return;
   if (!KnowsMirror(view, pivot) || pivot.bent) return;
   const double asymmetry = AsymmetryOf(view, pivot, blades->upper, blades->lower);
   const double off_px = ShareInPx(std::abs(asymmetry), pivot, *blades);
