@@ -90,6 +90,7 @@ TEST(FitStatistics, StatedSigmasHoldWithSystematicErrorsAndCorrelatedNeighbours)
 TEST(FitStatistics, StatedSigmasHoldWhereAnOffsetOutweighsTheNoise) {
   SimulatedPhoto photo;
   photo.offset_sigma_mm = 0.2;
+  photo.points = 200;
   ExpectHonest(Draw(CurvedScissors(), {photo}, 4 * kDraws));
 }
 
