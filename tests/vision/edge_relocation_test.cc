@@ -251,6 +251,23 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
+// What is just vague may be a faint border; the clearer line beside it may be a bevel's.
+TEST(RelocateUnlikeEdges, LeavesAVagueEdgeThatHasNoRival) {
+  constexpr double kAsidePx = 1, kVaguePx = 1.2;
+  const auto moved = [&](double ambiguity) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& vague = measured.blades.upper;
+    measured.MakeClear(&measured.blades.lower);
+    measured.Lose(&vague, kAsidePx);
+    vague.edge.ambiguity = ambiguity;
+    vague.edge.common_sigma_px = kVaguePx;
+    Relocate(&measured);
+    return vague.moved;
+  };
+  EXPECT_EQ(moved(0.2), "");
+  EXPECT_NE(moved(0.9), "");
+}
+
 TEST(RelocateUnlikeEdges, TakesNoDoubtfulEdgeForAMirror) {
   Measured measured{SceneWithMarkers()};
   measured.Lose(&measured.blades.upper, kLittlePx);

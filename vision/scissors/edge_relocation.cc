@@ -71,11 +71,14 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   }
 }
 
-// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt.
+// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
+// just vague, without a rival, stays: a clearer line close by is a bevel's.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kLess = 0.75;  // of the ambiguity before
+  constexpr double kLess = 0.75;   // of the ambiguity before
+  constexpr double kRival = 0.25;  // ambiguity of edges that have one
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
+  if (doubtful.edge.ambiguity < kRival) return;
   const std::optional<RelocatedBlade> found =
       LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
   if (!found) return;
