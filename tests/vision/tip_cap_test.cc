@@ -111,6 +111,18 @@ TEST(FitTipCap, TellsTheTipFromItsSoftShadow) {
   EXPECT_NEAR(sharp->end_px.x(), kTip + kAheadPx - kRadius, kAlong);
 }
 
+TEST(FitTipCap, KnowsHowSharplyTheBladeEnds) {
+  constexpr double kInFocus = 0.7, kClose = 0.1, kSoft = 0.5;
+  const cv::Mat sharp = Blade(8);
+  cv::Mat soft;
+  cv::GaussianBlur(sharp, soft, {}, 3);
+  const auto in_focus = FitTipCap(sharp, EdgeAlong(kEdge), kSearch);
+  const auto out_of_focus = FitTipCap(soft, EdgeAlong(kEdge), kSearch);
+  ASSERT_TRUE(in_focus && out_of_focus);
+  EXPECT_NEAR(in_focus->sharpness, kInFocus, kClose);
+  EXPECT_LT(out_of_focus->sharpness, kSoft);
+}
+
 // The step across the edge goes on along the shadow, which is darker than the blade.
 TEST(FindDistalEnds, LeavesTheBladesSoftShadow) {
   constexpr double kRadius = 12, kAheadPx = 16, kAlong = 2;
@@ -121,6 +133,26 @@ TEST(FindDistalEnds, LeavesTheBladesSoftShadow) {
   EXPECT_TRUE(end.arc_seen);
   EXPECT_GT(end.evidence, 0);
   EXPECT_NEAR(end.point_px.x(), kTip - kRadius, kAlong);
+}
+
+// A dark blade before its pale shadow, which ends softly; sharp, that may as well be the blade's
+// end.
+TEST(FindDistalEnds, KnowsTheSharpEndBeforeASoftOneForARival) {
+  constexpr double kRadius = 5, kAheadPx = 20, kAlong = 2, kMetal = 40, kShade = 0.4;
+  EndSearch search{kSearch, 0.05};
+  search.tip.tip_px.x() += kAheadPx;
+  const auto rivals = [&](double penumbra_px) {
+    return FindDistalEnds(BladeWithShadowAhead(kRadius, kAheadPx, penumbra_px, kMetal, kShade),
+                          EdgeAlong(kEdge),
+                          search)
+        .rivals;
+  };
+  const auto at_blade = [&](const DistalEnd& end) {
+    return std::abs(end.point_px.x() - (kTip - kRadius)) < kAlong;
+  };
+  const auto soft = rivals(2), sharp = rivals(0.1);
+  EXPECT_TRUE(std::any_of(soft.begin(), soft.end(), at_blade));
+  EXPECT_TRUE(std::none_of(sharp.begin(), sharp.end(), at_blade));
 }
 
 TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {

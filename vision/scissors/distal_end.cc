@@ -169,9 +169,10 @@ bool IsFaint(const TipCap& cap, double edge_step) {
 // Whether light changes across an arc as it does across the edge, and the arc is that of a tip.
 bool IsLikeEdge(const TipCap& cap, double edge_step) {
   constexpr double kLeast = 0.7, kMost = 1.4;  // of the edge's step
-  constexpr double kRound = 0.3;               // px of scatter
+  constexpr double kRound = 0.45;              // px of scatter
+  constexpr double kSharp = 0.55;              // shadows end more softly
   const double share = cap.step / edge_step;
-  return share > kLeast && share < kMost && cap.scatter_px < kRound;
+  return share > kLeast && share < kMost && cap.scatter_px < kRound && cap.sharpness > kSharp;
 }
 
 // The arc at another place than the presumed tip, if it is clear.
@@ -208,17 +209,19 @@ bool GoesOnBeyond(const TipCap& cap,
 }
 
 // Arcs before the presumed tip, up to a blade's width, at which the picture steps as it does across
-// the edge: the presumed tip may be that of the blade's shadow.
+// the edge, and as sharply as asked: the presumed tip may be that of the blade's shadow.
 std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
                                   const std::vector<Vector2d>& edge,
                                   const TipSearch& presumed,
-                                  double edge_step) {
+                                  double edge_step,
+                                  double least_sharpness) {
   const Vector2d along = AlongChord(edge);
   std::vector<DistalEnd> ends;
   for (double back_px = presumed.reach_px; back_px < presumed.blade_width_px + presumed.reach_px;
        back_px += presumed.reach_px) {
     const auto cap = ClearCapAt(presumed.tip_px - back_px * along, grey, edge, presumed);
-    if (cap && cap->step * edge_step > 0) ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
+    if (cap && cap->step * edge_step > 0 && cap->sharpness > least_sharpness)
+      ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
   }
   return ends;
 }
@@ -250,7 +253,8 @@ DistalEnds EndsBeforeShadow(const cv::Mat& grey,
 DistalEnds FindDistalEnds(const cv::Mat& grey,
                           const std::vector<Vector2d>& edge,
                           const EndSearch& search) {
-  constexpr double kClearArc = 2;  // px of scatter that is still a rounded end
+  constexpr double kClearArc = 2;                // px of scatter that is still a rounded end
+  constexpr double kSoft = 0.5, kSharper = 1.4;  // of an arc; times as sharp
   if (edge.size() < kFewestEdgePoints) {
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
@@ -265,7 +269,9 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
     if (rival) ends.push_back(EndAtSeenCap(edge, *rival, followed.step));
     return ends;
   };
-  const auto before = [&] { return EndsBefore(grey, edge, search.tip, followed.step); };
+  const auto before = [&](double least_sharpness) {
+    return EndsBefore(grey, edge, search.tip, followed.step, least_sharpness);
+  };
   if (clear && !rival && GoesOnBeyond(*cap, edge, search.tip, followed.end_px)) {
     EndSearch further = search;
     further.tip.tip_px = *followed.end_px;
@@ -274,14 +280,17 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
   }
   if (clear) {
     const DistalEnd end = EndAtSeenCap(edge, *cap, followed.step);
-    return {end, and_rival(end.evidence > 0 ? std::vector<DistalEnd>{} : before())};
+    if (end.evidence == 0) return {end, and_rival(before(0))};
+    // A soft arc may be a pale shadow's; the blade's own before it is sharp then.
+    const bool soft = cap->sharpness < kSoft;
+    return {end, and_rival(soft ? before(kSharper * cap->sharpness) : std::vector<DistalEnd>{})};
   }
   // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
   // mirror the background.
   const bool beyond = rival && (rival->end_px - search.tip.tip_px).dot(AlongChord(edge)) > 0;
   if (rival && (beyond || IsCertain(*rival)))
     return {EndAtSeenCap(edge, *rival, followed.step), {}};
-  return {EndWithoutCap(edge, search, followed.end_px), and_rival(before())};
+  return {EndWithoutCap(edge, search, followed.end_px), and_rival(before(0))};
 }
 
 }  // namespace bladecurve

@@ -34,12 +34,13 @@ struct EndSearch {
 
 // `edge` runs from the crotch to the tip, points about evenly spaced. By the arc of the tip where
 // that is seen, at the presumed tip or beyond it where the step across the edge ends; an arc where
-// that ends before the presumed tip is a rival unless it is certain, and so is one far beyond which
-// it goes on. Where a blade ends before the presumed tip (followed_step.h) that is its shadow's,
-// and the end is looked for there; a dark blade, if it ends on an arc like its edge. Else by where
-// the edge leaves its smooth course: least squares over the place t0 from which on the residual
-// grows as (t - t0)^2 / (2 R); or by what tips usually are, whichever is more certain. Fewer than
-// 12 points: the last point, with the length of the edge as its uncertainty.
+// that ends before the presumed tip is a rival unless it is certain. So are one far beyond which it
+// goes on, and sharp ones before one that is soft, as a shadow's is. Where a blade ends before the
+// presumed tip (followed_step.h) that is its shadow's, and the end is looked for there; a dark
+// blade, if it ends on an arc like its edge. Else by where the edge leaves its smooth course: least
+// squares over the place t0 from which on the residual grows as (t - t0)^2 / (2 R); or by what tips
+// usually are, whichever is more certain. Fewer than 12 points: the last point, with the length of
+// the edge as its uncertainty.
 [[nodiscard]] DistalEnds FindDistalEnds(const cv::Mat& grey,
                                         const std::vector<Eigen::Vector2d>& edge,
                                         const EndSearch& search);

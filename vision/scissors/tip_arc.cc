@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vision/image/robust_statistics.h"
 
@@ -26,18 +27,27 @@ int Denials(const std::vector<EndSeen>& followed, const TipArc& arc) {
       }));
 }
 
+constexpr double kOnArc = 0.7;  // px
+
+// Where an arc of this radius on which an end lies leaves the edge. std::nullopt for ends that lie
+// too near to the edge to tell, or too deep in the blade.
+std::optional<double> StartOfArc(double radius, const EndSeen& end) {
+  constexpr double kNearest = 0.1, kDeepest = 1.25;  // radii: beyond the crown begins another side
+  if (end.depth < kNearest * radius || end.depth > kDeepest * radius) return std::nullopt;
+  const double rise = radius - end.depth;
+  return end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise));
+}
+
 // The arc of this radius that explains most of the ends seen.
 TipArc ArcOfRadius(double radius,
                    const std::vector<EndSeen>& ends,
                    const std::vector<EndSeen>& followed) {
-  constexpr double kOnArc = 0.7;     // px
-  constexpr double kDeepest = 1.25;  // radii: beyond the crown another side of the tip begins
   constexpr double kDenialPenalty = 0.5;
   std::vector<double> starts, steps;
   for (const EndSeen& end : ends) {
-    if (end.depth < 0.1 * radius || end.depth > kDeepest * radius) continue;
-    const double rise = radius - end.depth;
-    starts.push_back(end.position - std::sqrt(std::max(0.0, radius * radius - rise * rise)));
+    const auto start = StartOfArc(radius, end);
+    if (!start) continue;
+    starts.push_back(*start);
     steps.push_back(end.step);
   }
   if (starts.size() < 5) return {};
@@ -93,6 +103,11 @@ Vector2d EdgeAxis::At(double position, double depth) const {
 
 double EdgeAxis::PositionOf(const Vector2d& place_px) const {
   return (place_px - origin).dot(along);
+}
+
+bool TipArc::Explains(const EndSeen& end) const {
+  const auto its_start = StartOfArc(radius, end);
+  return its_start && std::abs(*its_start - start) < kOnArc;
 }
 
 TipArc FitTipArc(const std::vector<EndSeen>& ends,

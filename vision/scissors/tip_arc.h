@@ -45,6 +45,8 @@ struct TipArc {
   double scatter = 0;
   int seen = 0;     // lines that end on it
   double step = 0;  // typical
+
+  [[nodiscard]] bool Explains(const EndSeen& end) const;
 };
 
 // The arc of at most so large a radius, px, that explains most of the ends seen. `followed`: the

@@ -96,6 +96,22 @@ double Sharpness(const Line& line, std::size_t i) {
   return std::abs(line.light[i + kNear] - line.light[i - kNear]) / std::max(1.0, std::abs(whole));
 }
 
+// Of the ends that an arc explains, typically; 1 where that cannot be seen.
+double SharpnessOn(const cv::Mat& grey,
+                   const EdgeAxis& axis,
+                   const std::vector<EndSeen>& ends,
+                   const TipArc& arc) {
+  constexpr double kReachPx = kSpacing * (kFar + 1);
+  std::vector<double> sharpness;
+  for (const EndSeen& end : ends) {
+    if (!arc.Explains(end)) continue;
+    const double from = end.position - kReachPx, to = end.position + kReachPx;
+    if (const auto line = LineAt(grey, axis, end.depth, from, to))
+      sharpness.push_back(Sharpness(*line, kFar + 1));
+  }
+  return sharpness.empty() ? 1 : Median(std::move(sharpness));
+}
+
 // The deepest step the other way before one end, up to `reach_px` before it, where a dark strip may
 // begin that ends there; and how sharp both are.
 struct StripSeen {
@@ -178,8 +194,13 @@ std::optional<TipCap> FitTipCap(const cv::Mat& grey,
   if (seen.seen == 0) return std::nullopt;
   const auto own = ArcBeforeShadow(grey, axis, ends, followed, deepest, search.blade_width_px);
   const TipArc& arc = own ? *own : seen;
-  return TipCap{
-      axis.At(arc.start, 0), arc.radius, arc.scatter, arc.seen, arc.step, own.has_value()};
+  return TipCap{axis.At(arc.start, 0),
+                arc.radius,
+                arc.scatter,
+                arc.seen,
+                arc.step,
+                own.has_value(),
+                own ? 1 : SharpnessOn(grey, axis, ends, seen)};
 }
 
 TipCap UsualTipCap(const std::vector<Vector2d>& edge, const TipSearch& search) {
