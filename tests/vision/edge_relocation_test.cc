@@ -360,21 +360,41 @@ TEST(RelocateUnlikeEdges, TakesNoFaintStepForEdgesThatDifferByLessThanThePivotIs
 }
 
 // Beside the upper edge a line is drawn on the ground, faintly, where the other blade puts that
-// edge if the pivot lies aside.
-TEST(RelocateUnlikeEdges, TakesNoVaguerEdgeWherePivotsThatLieAsideMayPutIt) {
-  constexpr double kAsidePx = 5, kBandPx = 40, kFaint = -8, kSurePx = 0.3, kUnsurePx = 2;
+// edge as the pivot lies aside.
+Measured WithLineWhereMirrored(double pivot_sigma_px) {
+  constexpr double kAsidePx = 5, kBandPx = 40, kFaint = -8;
   const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  measured.photo = Measured::PhotoOf(testing::RetouchedAlongUpperEdge(
+      spec, -kBandPx, -2 * kAsidePx, [&](double, double) { return kFaint; }));
+  const Vector2d& axis = measured.truth.axis_px;
+  measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
+  measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+  measured.Compare();
+  return measured;
+}
+
+TEST(RelocateUnlikeEdges, TakesNoVaguerEdgeWherePivotsThatLieAsideMayPutIt) {
+  constexpr double kSurePx = 0.3, kUnsurePx = 2;
   for (const double pivot_sigma_px : {kSurePx, kUnsurePx}) {
-    Measured measured{spec};
-    measured.photo = Measured::PhotoOf(testing::RetouchedAlongUpperEdge(
-        spec, -kBandPx, -2 * kAsidePx, [&](double, double) { return kFaint; }));
-    const Vector2d& axis = measured.truth.axis_px;
-    measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
-    measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
-    measured.Compare();
+    Measured measured = WithLineWhereMirrored(pivot_sigma_px);
     Relocate(&measured);
     EXPECT_EQ(measured.blades.upper.moved.empty(), pivot_sigma_px == kUnsurePx)
         << measured.pivot.asymmetry;
+  }
+}
+
+// The other one may be something else's border.
+TEST(RelocateUnlikeEdges, LeavesNoClearEdgeForWhereADoubtfulOnePutsIt) {
+  constexpr double kSurePx = 0.3;
+  for (const double ambiguity_of_other : {0.0, 0.9}) {
+    Measured measured = WithLineWhereMirrored(kSurePx);
+    Measured::MakeClear(&measured.blades.upper);
+    Measured::MakeClear(&measured.blades.lower);
+    measured.blades.lower.edge.ambiguity = ambiguity_of_other;
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.upper.moved.empty(), ambiguity_of_other > 0)
+        << measured.blades.upper.moved;
   }
 }
 

@@ -48,13 +48,16 @@ bool IsBetter(const std::optional<RelocatedBlade>& found,
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
-// Edges that do not mirror each other: the one that is better seen where the other puts it.
+// Edges that do not mirror each other: the one that is better seen where the other puts it. A clear
+// edge is not left for where a doubtful one puts it.
 void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, pivot, *blades);
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<RelocatedBlade> lower = LookWhereMirrored({view, pivot, blades->upper, line});
   const bool beyond = DifferBeyondPivot(pivot, *blades);
   const auto is_better = [&](const auto& found, const LocatedBlade& blade, bool alone) {
+    const LocatedBlade& other = &blade == &blades->upper ? blades->lower : blades->upper;
+    if (IsClear(blade.edge) && IsDoubtful(other.edge)) return false;
     const bool outside = LiesInwards(blade, pivot);
     if (found && !outside && IsSurelyBorder(blade.edge, found->blade.edge)) return false;
     return IsBetter(found, blade, {alone && outside, beyond});
