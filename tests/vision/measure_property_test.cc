@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The same scissors, whatever is done to the photograph: turned, mirrored, scaled, exposed
 // otherwise, with more noise or without the handles, the measurement says the same within its
-// stated uncertainty. On a rendered photograph, and on real ones where they lie beside the project.
+// stated uncertainty. On a rendered photograph, and on real and ray-traced ones where they lie
+// beside the project.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -125,7 +126,7 @@ Change Scaled(double factor) {
 
 // In light: one stop is a factor of two before the tone curve.
 Change Exposed(double stops) {
-  return {"exposed by " + std::to_string(static_cast<int>(stops)) + " stop",
+  return {"exposed by " + std::to_string(stops).substr(0, 4) + " stops",
           [stops](const cv::Mat& picture) {
             cv::Mat table(1, 256, CV_8UC1);
             for (int value = 0; value < 256; ++value) {
@@ -215,6 +216,14 @@ Change AllAtOnce(unsigned seed) {
           move.factor()};
 }
 
+Change SmallAndExposed(double factor, double stops) {
+  const Change scaled = Scaled(factor), exposed = Exposed(stops);
+  return {scaled.name + ", " + exposed.name,
+          [=](const cv::Mat& picture) { return exposed.apply(scaled.apply(picture)); },
+          scaled.moved,
+          factor};
+}
+
 // The part of the picture that a line across it leaves, so many blades' lengths behind the pivot.
 std::optional<Change> CutBehind(const PhotoMeasurement& seen,
                                 double lengths,
@@ -239,18 +248,23 @@ std::optional<Change> CutBehind(const PhotoMeasurement& seen,
 // From close behind the joint to where the rings begin.
 constexpr std::array kCutsBehind{0.4, 0.8, 1.2, 1.6};
 
-PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHints& hints = {}) {
+PhotoMeasurement Measure(const cv::Mat& picture, const MeasureOptions& options) {
   const fs::path file = ProcessFolder() / "picture.png";
   WritePng(file, picture);
-  MeasureOptions options;
-  options.scale.mm_per_px = mm_per_px;
-  options.hints = hints;
   return MeasurePhoto(file, options);
 }
 
-std::optional<PhotoMeasurement> MeasureUnlessRefused(const cv::Mat& picture) {
+PhotoMeasurement Measure(const cv::Mat& picture, double mm_per_px, const SceneHints& hints = {}) {
+  MeasureOptions options;
+  options.scale.mm_per_px = mm_per_px;
+  options.hints = hints;
+  return Measure(picture, options);
+}
+
+std::optional<PhotoMeasurement> MeasureUnlessRefused(const cv::Mat& picture,
+                                                     const MeasureOptions& options) {
   try {
-    return Measure(picture, 1);
+    return Measure(picture, options);
   } catch (const Refused&) {
     return std::nullopt;
   }
@@ -394,26 +408,44 @@ TEST_P(RenderedPhotograph, KeepsItsMeasuresWithoutTheHandles) {
   }
 }
 
-// The photographs are somebody else's and lie beside the project.
-std::vector<fs::path> RealPhotographs() {
-  const fs::path folder = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos" / "real";
-  std::vector<fs::path> photographs;
-  if (!fs::exists(folder)) return photographs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".jpg" || extension == ".png") photographs.push_back(entry.path());
+// Photographs that are somebody else's and lie beside the project; and how they are measured.
+struct PhotographsBeside {
+  std::string folder;
+  int longest_px = 0;  // the properties hold at any size, and a test should not take minutes
+  MeasureOptions options;
+
+  [[nodiscard]] std::vector<fs::path> Files() const {
+    const fs::path all = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos" / folder;
+    std::vector<fs::path> photographs;
+    if (!fs::exists(all)) return photographs;
+    for (const fs::directory_entry& entry : fs::directory_iterator(all)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension == ".jpg" || extension == ".png") photographs.push_back(entry.path());
+    }
+    std::sort(photographs.begin(), photographs.end());
+    return photographs;
   }
-  std::sort(photographs.begin(), photographs.end());
-  return photographs;
+
+  [[nodiscard]] cv::Mat Picture(const fs::path& file) const {
+    const cv::Mat picture = Photo::Load(file).DecodeColour(longest_px);
+    const double factor = std::min(1.0, 1.0 * longest_px / std::max(picture.cols, picture.rows));
+    cv::Mat small;
+    cv::resize(picture, small, {}, factor, factor, cv::INTER_AREA);
+    return small;
+  }
+};
+
+PhotographsBeside RealPhotographs() {
+  PhotographsBeside real{"real", 700, {}};
+  real.options.scale.mm_per_px = 1;
+  return real;
 }
 
-// At most 700 px: the properties hold at any size, and a test should not take minutes.
-cv::Mat SmallPicture(const fs::path& file) {
-  const cv::Mat picture = Photo::Load(file).DecodeColour(700);
-  const double factor = std::min(1.0, 700.0 / std::max(picture.cols, picture.rows));
-  cv::Mat small;
-  cv::resize(picture, small, {}, factor, factor, cv::INTER_AREA);
-  return small;
+// In known views; the markers' size does not matter here.
+PhotographsBeside RayTracedPhotographs() {
+  PhotographsBeside traced{"rendered", 2000, {}};
+  traced.options.scale.marker_mm = 25;
+  return traced;
 }
 
 using ChangesOf =
@@ -422,25 +454,27 @@ using ChangesOf =
 // Every changed photograph, of those that are measured, must either be refused or agree: one at the
 // edge of what can be seen may tip over, but not into another answer. Of all so large a share must
 // agree.
-void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
-  const std::vector<fs::path> photographs = RealPhotographs();
+void ExpectAlikeOrRefused(const PhotographsBeside& photographs,
+                          const ChangesOf& changes,
+                          double least_share) {
+  const std::vector<fs::path> files = photographs.Files();
   int measured = 0, tried = 0, again = 0;
-  for (const fs::path& file : photographs) {
+  for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
-    const cv::Mat picture = SmallPicture(file);
-    const std::optional<PhotoMeasurement> before = MeasureUnlessRefused(picture);
+    const cv::Mat picture = photographs.Picture(file);
+    const auto before = MeasureUnlessRefused(picture, photographs.options);
     if (!before) continue;
     ++measured;
     for (const Change& change : changes(*before, picture.size())) {
       SCOPED_TRACE(change.name);
       ++tried;
-      const auto after = MeasureUnlessRefused(change.apply(picture));
+      const auto after = MeasureUnlessRefused(change.apply(picture), photographs.options);
       if (!after) continue;
       ExpectSame(*before, *after, change, picture.size());
       ++again;
     }
   }
-  EXPECT_GT(measured, static_cast<int>(photographs.size()) / 2);
+  EXPECT_GT(measured, static_cast<int>(files.size()) / 2);
   EXPECT_GE(tried, 20);
   EXPECT_GE(again, least_share * tried) << again << " of " << tried;
 }
@@ -448,12 +482,20 @@ void ExpectAlikeOrRefused(const ChangesOf& changes, double least_share) {
 class RealPhotograph : public testing::Test {
  protected:
   void SetUp() override {
-    if (RealPhotographs().empty()) GTEST_SKIP() << "no photographs beside the project";
+    if (RealPhotographs().Files().empty()) GTEST_SKIP() << "no photographs beside the project";
+  }
+};
+
+class RayTracedPhotograph : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (RayTracedPhotographs().Files().empty()) GTEST_SKIP() << "no photographs beside the project";
   }
 };
 
 TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
   ExpectAlikeOrRefused(
+      RealPhotographs(),
       [](auto&, auto&) {
         return std::vector{QuarterTurn(), HalfTurn(), Mirrored()};
       },
@@ -462,6 +504,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
 
 TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
   ExpectAlikeOrRefused(
+      RealPhotographs(),
       [](auto&, auto&) {
         return std::vector{Scaled(0.7), Scaled(1.4), Scaled(2)};
       },
@@ -471,6 +514,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
 TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
   // A whole stop more clips white grounds.
   ExpectAlikeOrRefused(
+      RealPhotographs(),
       [](auto&, auto&) {
         return std::vector{Exposed(-1), Exposed(1), Noisy(4)};
       },
@@ -479,6 +523,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise)
 
 TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAllAtOnce) {
   ExpectAlikeOrRefused(
+      RealPhotographs(),
       [](auto&, auto&) {
         return std::vector{AllAtOnce(1), AllAtOnce(2), AllAtOnce(3)};
       },
@@ -493,7 +538,17 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
     }
     return changes;
   };
-  ExpectAlikeOrRefused(cuts, 0.8);
+  ExpectAlikeOrRefused(RealPhotographs(), cuts, 0.8);
+}
+
+// Brighter, a tip's shadow is as pale as the ground; smaller, it is hardly wider than the tip.
+TEST_F(RayTracedPhotograph, IsMeasuredAlikeUnderAnotherExposureAndSmaller) {
+  ExpectAlikeOrRefused(
+      RayTracedPhotographs(),
+      [](auto&, auto&) {
+        return std::vector{Exposed(-0.8), Scaled(0.71), SmallAndExposed(0.71, 0.8)};
+      },
+      0.95);
 }
 
 }  // namespace
