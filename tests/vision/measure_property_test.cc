@@ -458,6 +458,7 @@ void ExpectAlikeOrRefused(const PhotographsBeside& photographs,
                           const ChangesOf& changes,
                           double least_share) {
   const std::vector<fs::path> files = photographs.Files();
+  if (files.empty()) GTEST_SKIP() << "no photographs beside the project";
   int measured = 0, tried = 0, again = 0;
   for (const fs::path& file : files) {
     SCOPED_TRACE(file.filename());
@@ -479,21 +480,7 @@ void ExpectAlikeOrRefused(const PhotographsBeside& photographs,
   EXPECT_GE(again, least_share * tried) << again << " of " << tried;
 }
 
-class RealPhotograph : public testing::Test {
- protected:
-  void SetUp() override {
-    if (RealPhotographs().Files().empty()) GTEST_SKIP() << "no photographs beside the project";
-  }
-};
-
-class RayTracedPhotograph : public testing::Test {
- protected:
-  void SetUp() override {
-    if (RayTracedPhotographs().Files().empty()) GTEST_SKIP() << "no photographs beside the project";
-  }
-};
-
-TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
   ExpectAlikeOrRefused(
       RealPhotographs(),
       [](auto&, auto&) {
@@ -502,7 +489,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWhenTurnedAndMirrored) {
       0.9);
 }
 
-TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
   ExpectAlikeOrRefused(
       RealPhotographs(),
       [](auto&, auto&) {
@@ -511,7 +498,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedInAnotherSize) {
       0.9);
 }
 
-TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise) {
   // A whole stop more clips white grounds.
   ExpectAlikeOrRefused(
       RealPhotographs(),
@@ -521,7 +508,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAnotherExposureAndMoreNoise)
       0.75);
 }
 
-TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAllAtOnce) {
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAllAtOnce) {
   ExpectAlikeOrRefused(
       RealPhotographs(),
       [](auto&, auto&) {
@@ -530,7 +517,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedUnderAllAtOnce) {
       0.85);
 }
 
-TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
+TEST(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
   const auto cuts = [](const PhotoMeasurement& before, const cv::Size& size) {
     std::vector<Change> changes;
     for (const double lengths : kCutsBehind) {
@@ -542,7 +529,7 @@ TEST_F(RealPhotograph, IsMeasuredAlikeOrRefusedWithoutTheHandles) {
 }
 
 // Brighter, a tip's shadow is as pale as the ground; smaller, it is hardly wider than the tip.
-TEST_F(RayTracedPhotograph, IsMeasuredAlikeUnderAnotherExposureAndSmaller) {
+TEST(RayTracedPhotograph, IsMeasuredAlikeUnderAnotherExposureAndSmaller) {
   ExpectAlikeOrRefused(
       RayTracedPhotographs(),
       [](auto&, auto&) {

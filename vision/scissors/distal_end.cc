@@ -282,8 +282,8 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
     const DistalEnd end = EndAtSeenCap(edge, *cap, followed.step);
     if (end.evidence == 0) return {end, and_rival(before(0))};
     // A soft arc may be a pale shadow's; the blade's own before it is sharp then.
-    const bool soft = cap->sharpness < kSoft;
-    return {end, and_rival(soft ? before(kSharper * cap->sharpness) : std::vector<DistalEnd>{})};
+    if (cap->sharpness < kSoft) return {end, and_rival(before(kSharper * cap->sharpness))};
+    return {end, and_rival({})};
   }
   // Beyond the presumed tip there is blade as far as the step goes on; before it, a bevel may just
   // mirror the background.

@@ -55,15 +55,15 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
   const std::optional<RelocatedBlade> lower = LookWhereMirrored({view, pivot, blades->upper, line});
   const bool beyond = DifferBeyondPivot(pivot, *blades);
-  const auto is_better = [&](const auto& found, const LocatedBlade& blade, bool alone) {
-    const LocatedBlade& other = &blade == &blades->upper ? blades->lower : blades->upper;
+  const auto is_better = [&](const auto& found, bool upper_one, bool alone) {
+    const auto [blade, other] = OneOf(blades, upper_one);
     if (IsClear(blade.edge) && IsDoubtful(other.edge)) return false;
     const bool outside = LiesInwards(blade, pivot);
     if (found && !outside && IsSurelyBorder(blade.edge, found->blade.edge)) return false;
     return IsBetter(found, blade, {alone && outside, beyond});
   };
-  const bool upper_better = is_better(upper, blades->upper, !lower);
-  const bool lower_better = is_better(lower, blades->lower, !upper);
+  const bool upper_better = is_better(upper, true, !lower);
+  const bool lower_better = is_better(lower, false, !upper);
   if (upper_better && lower_better) return;
   if (upper_better) {
     Replace(*upper, kWhereMirrored, &blades->upper);

@@ -18,12 +18,12 @@ namespace bladecurve {
 //   in, where a shadow begins that accounts for the difference;
 // - both, at the inner sides of the bands beside them, if those mirror each other;
 // - the one that stands out more clearly where the other puts it, or alone is seen there, further
-//   out than it was, and not less surely if the pivot may account for the difference; if neither
-//   does, the inner one along the other's mirror image, if they differ by more than the pivot may
-//   be off and that lies on a faint border along its whole; if it does not either, the vaguer one
-//   is doubted by as much as they differ;
-// - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful, that
-//   one, if it is seen where the other puts it.
+//   out than it was, and not less surely if the pivot may account for the difference, but no clear
+//   one where a doubtful one puts it; if neither does, the inner one along the other's mirror
+//   image, if they differ by more than the pivot may be off and that lies on a faint border along
+//   its whole; if it does not either, the vaguer one is doubted by as much as they differ;
+// - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful and
+//   has a rival, that one, if it is seen where the other puts it.
 // None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
 // not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot

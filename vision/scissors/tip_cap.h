@@ -18,7 +18,7 @@ struct TipCap {
   int seen = 0;            // lines along which the outline was seen
   double step = 0;         // grey values beyond it less within, typically
   bool in_shadow = false;  // beyond it lies the blade's own shadow
-  double sharpness = 1;    // of the ends on the arc, typically: 0.7 in focus
+  double sharpness = 1;    // of the ends on the arc, typically: 0.7 in focus; 1 where not measured
 
   [[nodiscard]] double Evidence() const { return seen * std::abs(step); }
 };
