@@ -6,7 +6,6 @@
 // evaluate. Prints for each method "name milliseconds" and then the values of the curve, one line a
 // method.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "curvefit/fit.h"
 #include "curvefit/joint_fit.h"
 #include "curvefit/linear_spline.h"
+#include "stopwatch.h"
 
 namespace bladecurve {
 namespace {
@@ -131,10 +131,9 @@ void Report(const char* name, const Job& job, Curve (*method)(const Job&)) {
   std::vector<double> ms;
   Curve curve;
   for (int i = 0; i < kRepeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     curve = method(job);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-    ms.push_back(took.count());
+    ms.push_back(stopwatch.Milliseconds());
   }
   std::printf("%s %.6f", name, *std::min_element(ms.begin(), ms.end()));
   for (const double x : job.places) std::printf(" %.17g", curve(x));

@@ -3,7 +3,6 @@
 // Accuracy and time of edge location side by side, against the Cramér-Rao bound. Not a test.
 // usage: edge_benchmark [DRAWS of each straight edge; 200]
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "stopwatch.h"
 #include "vision/edge/edge.h"
 #include "vision/edge_bound.h"
 #include "vision/edge_images.h"
@@ -53,11 +53,6 @@ struct Tally {
   }
 };
 
-double MillisecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-      .count();
-}
-
 const double kRounding = std::sqrt(1.0 / 12);  // of a pixel and of a grey value
 
 // Light is even over no more than that in practice; bound and reference use the pixels within. All
@@ -90,9 +85,9 @@ void LocateOnce(const EdgeLook& look, const ToneCurve& tone, Gaussian& random, T
                    middle + along * kLength / 2 - normal};
   guess.blade_on_left = false;
   try {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const LocatedEdge edge = LocateEdge(grey, tone, guess);
-    const double ms = MillisecondsSince(start);
+    const double ms = stopwatch.Milliseconds();
     double sum = 0, variance = 0, count = 0;
     for (const LocatedEdgePoint& point : edge.points) {
       if (!point.inlier) continue;
@@ -216,9 +211,9 @@ void LongEdge() {
   guess.blade_on_left = false;
   double best = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kRepeats; ++i) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     (void)LocateEdge(grey, testing::GammaCurve(1), guess);
-    best = std::min(best, MillisecondsSince(start));
+    best = std::min(best, stopwatch.Milliseconds());
   }
   std::printf("\nEdge of %.0f px: %.2f ms, best of %d\n", kLong, best, kRepeats);
 }

@@ -19,6 +19,7 @@
 #include "vision/edge_images.h"
 #include "vision/measure.h"
 #include "vision/photo/photo.h"
+#include "vision/photographs_beside.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -186,7 +187,7 @@ class EdgePhotos : public ::testing::Test {
   void SetUp() override {
     if (!fs::exists(folder_)) GTEST_SKIP() << "no photographs at " << folder_;
   }
-  const fs::path folder_ = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos";
+  const fs::path folder_ = FolderBeside();
 };
 
 // One scene in eight has a blade that is overexposed by far; its bloom is no edge.

@@ -9,7 +9,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -21,6 +20,7 @@
 #include <vector>
 
 #include "path_distance.h"
+#include "stopwatch.h"
 #include "vision/measure.h"
 #include "vision/photo/photo_codec.h"
 #include "vision/render/render.h"
@@ -69,10 +69,9 @@ std::string Contents(const fs::path& file) {
 
 template <typename Work>
 double MsOf(const Work& work) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-      .count();
+  return stopwatch.Milliseconds();
 }
 
 // The goal is written for it: its time and 10 ms.

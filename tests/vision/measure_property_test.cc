@@ -25,6 +25,7 @@
 #include "vision/measure.h"
 #include "vision/photo/photo.h"
 #include "vision/photo/png_writer.h"
+#include "vision/photographs_beside.h"
 #include "vision/refused.h"
 #include "vision/render/render.h"
 
@@ -415,7 +416,7 @@ struct PhotographsBeside {
   MeasureOptions options;
 
   [[nodiscard]] std::vector<fs::path> Files() const {
-    const fs::path all = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos" / folder;
+    const fs::path all = FolderBeside() / folder;
     std::vector<fs::path> photographs;
     if (!fs::exists(all)) return photographs;
     for (const fs::directory_entry& entry : fs::directory_iterator(all)) {

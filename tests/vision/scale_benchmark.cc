@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
 // Error of a marker's corners beside the information limit, and the time of it: one line a case.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "process_folder.h"
+#include "stopwatch.h"
 #include "vision/card_scene.h"
 #include "vision/corner_bound.h"
 #include "vision/photo/png_writer.h"
@@ -38,12 +38,9 @@ Outcome Run(SquareImage image, int draws) {
     for (Eigen::Vector2d& corner : rough.corners_px) {
       corner += Eigen::Vector2d(Uniform(&random, -1, 1), Uniform(&random, -1, 1));
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const SeenMarker marker = LocateMarkerCorners(grey, tone, rough, {2, std::nullopt});
-    outcome.ms +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-            .count() /
-        draws;
+    outcome.ms += stopwatch.Milliseconds() / draws;
     outcome.stated_px += marker.corner_sigma_px / draws;
     for (size_t k = 0; k < 4; ++k) {
       const Eigen::Vector2d error = marker.corners_px[k] - Corners(image)[k];
@@ -70,9 +67,9 @@ void PrintHundredMillimetres() {
     const Photo photo = Photo::Load(picture);
     ScaleOptions options;
     options.plane_height_mm = 0;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const ScaleResult on_sheet = FindScale(photo, options);
-    const auto end = std::chrono::steady_clock::now();
+    const double on_sheet_ms = stopwatch.Milliseconds();
     options.plane_height_mm = 2;
     const ScaleResult above = FindScale(photo, options);
     options.camera = SaveCalibration(rendered.truth, ProcessFolder() / "camera.json");
@@ -82,7 +79,7 @@ void PrintHundredMillimetres() {
                 WorstOf100Mm(*on_sheet.map, rendered.truth.camera, 0),
                 WorstOf100Mm(*above.map, rendered.truth.camera, 2),
                 WorstOf100Mm(*calibrated.map, rendered.truth.camera, 2),
-                std::chrono::duration<double, std::milli>(end - start).count());
+                on_sheet_ms);
   }
 }
 

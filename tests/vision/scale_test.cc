@@ -14,6 +14,7 @@
 #include <random>
 
 #include "process_folder.h"
+#include "vision/photographs_beside.h"
 #include "vision/refused.h"
 #include "vision/scale/card.h"
 #include "vision/scale/sheet_pose.h"
@@ -184,7 +185,7 @@ TEST(PlaneMap, UniformKeepsTheHandOfThePictureAsSeen) {
   EXPECT_THROW(static_cast<void>(PlaneMap::Uniform(-1, 0, "")), std::invalid_argument);
 }
 
-fs::path Rendered() { return fs::path(BLADECURVE_SOURCE_DIR) / "../shared/photos/rendered"; }
+fs::path Rendered() { return FolderBeside() / "rendered"; }
 
 nlohmann::json TruthOf(const std::string& name) {
   return nlohmann::json::parse(std::ifstream(Rendered() / (name + ".truth.json")));

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "stopwatch.h"
 #include "vision/pivot/screw.h"
 #include "vision/render/render.h"
 #include "vision/screw_images.h"
@@ -93,10 +93,9 @@ void Measure(const std::string& name, double radius, int count, const Draw& draw
     search.radius_px = 1.4 * radius;
     search.min_semi_axis_px = 0.5 * radius;
     search.max_semi_axis_px = 1.8 * radius;
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const std::optional<Screw> screw = FindScrew(drawn.grey, SrgbToneCurve(), search);
-    ms +=
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    ms += stopwatch.Milliseconds();
     bound_squares += drawn.bound_px * drawn.bound_px;
     if (!screw) continue;
     const Eigen::Vector2d error = screw->center_px - drawn.center_px;

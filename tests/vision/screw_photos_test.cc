@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "vision/photo/photo.h"
+#include "vision/photographs_beside.h"
 #include "vision/pivot/screw.h"
 #include "vision/screw_images.h"
 
@@ -25,7 +26,7 @@ using Eigen::Vector2d;
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-const fs::path kPhotos = fs::path(BLADECURVE_SOURCE_DIR) / ".." / "shared" / "photos";
+const fs::path kPhotos = FolderBeside();
 
 struct PhotoOfScrew {
   std::string name;
