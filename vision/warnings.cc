@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "vision/scissors/consistency.h"
-
 namespace bladecurve {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "vision/refused.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

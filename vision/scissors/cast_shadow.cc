@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/dark_band.h"
 
 namespace bladecurve {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

@@ -28,24 +28,6 @@ void RefuseClosed(const Pivot& pivot, const Blades& blades);
 // Whether the edges pass by it as far as those of usual scissors do; jaws' meet there.
 [[nodiscard]] bool PassByPivot(const Pivot& pivot);
 
-// Whether an edge by itself is in no doubt: no other border beside it, and known to a pixel; or in
-// grave doubt. Between the two nothing is said.
-[[nodiscard]] bool IsClear(const LocatedEdge& edge);
-[[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
-
-// Makes an edge ambiguous, and less certain by so much: it may lie that far off.
-void Doubt(LocatedEdge* edge, double off_px);
-
-// The same for the sake of its rival, which may be its border.
-void DoubtForRival(LocatedEdge* edge, double off_px);
-
-// Makes a line so far out of the blade the edge's rival.
-void SetRival(LocatedEdge* edge, double rival_px);
-
-// By how much the edges would pass the pivot more unequally, signed as their asymmetry, px, if this
-// one's rival were its border.
-[[nodiscard]] double ByRivalPx(const LocatedBlade& blade);
-
 // Whether the head is rather a shadow or a facet: it is faint, and two edges, each clear by itself
 // and seen from a known side, are no mirror images about it by far.
 [[nodiscard]] bool IsFalseHead(const Pivot& pivot, const ScaleResult& scale, const Blades& blades);
@@ -68,37 +50,5 @@ void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot);
 // second look needs more than a faint head. Where none is seen the scene must be plainer: else
 // Refused{kAmbiguousPivot}.
 void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot);
-
-// Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
-// elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
-// would mirror each other if the other transition beside one of them were its border, that may well
-// be so (a bright bevel on a bright ground): such an edge becomes ambiguous, and less certain by
-// 0.6 of the way there.
-void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
-
-// A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
-// off the curve that the rest follows, by 0.3 % of its length, half a pixel and more than is known
-// of it, another line was followed part of the way: the edge becomes ambiguous, and less certain by
-// twice as much. Throws Refused{kLowContrast} where the upper edge is off by 2 %.
-void DoubtKinkedEdges(Blades* blades);
-
-// Both edges lie about as far from the lens. One that looks softer than the other has another step
-// close by, as that to a narrow bevel, and may lie as far off: it becomes less certain by 1.2 times
-// as much as it is softer.
-void DoubtSofterEdge(Blades* blades);
-
-// Edges are as sharp as print at the same distance. What makes one look softer or sharper, light or
-// a shadow beside it, moves it by about as much. Much sharper than print, it is in doubt: another
-// step lies close by, as that of a narrow shadow does.
-void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades);
-
-// What was found at a second look only may follow other lines than the blades' borders: its edges
-// are less certain by a hundredth of the blades' length.
-void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades);
-
-// The distal ends of edges that pass although they are no mirror images: one of the edges is
-// something else's border, or the view is oblique. Either may turn the angle by as much as they
-// differ.
-void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve

@@ -9,7 +9,7 @@
 
 #include "vision/edge/edge_shadow.h"
 #include "vision/image/blurred_step.h"
-#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {

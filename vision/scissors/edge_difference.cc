@@ -6,6 +6,7 @@
 
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 

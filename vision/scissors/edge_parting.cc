@@ -12,7 +12,6 @@
 #include "vision/edge/edge_curve.h"
 #include "vision/pivot/edge_gap.h"
 #include "vision/refused.h"
-#include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/gap_trend.h"
 

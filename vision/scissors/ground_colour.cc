@@ -8,7 +8,7 @@
 
 #include "vision/edge/colour_border.h"
 #include "vision/parallel.h"
-#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {

@@ -14,7 +14,7 @@
 #include "vision/image/bilinear.h"
 #include "vision/image/blurred_step.h"
 #include "vision/image/robust_statistics.h"
-#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

@@ -13,6 +13,7 @@
 #include "vision/scissors/blade_view.h"
 #include "vision/scissors/confirmed_edge.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/edge_pair.h"
 #include "vision/scissors/edge_parting.h"
 #include "vision/scissors/edge_relocation.h"

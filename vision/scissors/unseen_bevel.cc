@@ -9,7 +9,7 @@
 
 #include "vision/edge/edge_margin.h"
 #include "vision/refused.h"
-#include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/edge_doubt.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vision/edge/edge_curve.h"
+#include "vision/parallel.h"
+#include "vision/refused.h"
+#include "vision/scissors/consistency.h"
+
+namespace bladecurve {
+namespace {
+
+constexpr double kVaguePx = 1;  // common uncertainty
+
+// Whether the edges pass by a pivot that is seen or told so differently that one of them is in
+// doubt.
+bool PassUnlike(const Pivot& pivot) {
+  return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
+}
+
+// Less certain by that much, standard, for reasons of its own.
+void AddSigma(LocatedEdge* edge, double off_px) {
+  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
+}
+
+}  // namespace
+
+bool IsClear(const LocatedEdge& edge) {
+  constexpr double kClear = 0.5;  // ambiguity
+  return edge.ambiguity <= kClear && edge.common_sigma_px <= kVaguePx;
+}
+
+bool IsDoubtful(const LocatedEdge& edge) {
+  constexpr double kDoubt = 0.75;  // ambiguity
+  return edge.ambiguity > kDoubt || edge.common_sigma_px > kVaguePx;
+}
+
+void Doubt(LocatedEdge* edge, double off_px) {
+  constexpr double kDoubt = 0.75;  // ambiguity
+  edge->ambiguity = std::max(edge->ambiguity, kDoubt);
+  AddSigma(edge, off_px);
+}
+
+void DoubtForRival(LocatedEdge* edge, double off_px) {
+  Doubt(edge, off_px);
+  edge->rival_sigma_px = std::hypot(edge->rival_sigma_px, off_px);
+}
+
+void SetRival(LocatedEdge* edge, double rival_px) {
+  edge->rival_px = rival_px;
+  edge->rival_path_px.clear();
+  for (const LocatedEdgePoint& p : edge->points)
+    edge->rival_path_px.push_back(p.trend_px + rival_px * p.normal);
+}
+
+double ByRivalPx(const LocatedBlade& blade) {
+  return (blade.on_left ? 1 : -1) * blade.edge.rival_px;
+}
+
+void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
+  constexpr double kOff = 0.1;    // sigma, of how unlike they pass; over annotated photographs
+  constexpr double kShare = 0.6;  // sigma, of the way to the other one
+  if (!PassUnlike(pivot)) return;
+  const double length_px = BladeLengthPx(pivot, *blades);
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    LocatedEdge& edge = blade->edge;
+    AddSigma(&edge, kOff * pivot.asymmetry * length_px);
+    if (!AreAlike(pivot.asymmetry + ByRivalPx(*blade) / length_px)) continue;
+    Doubt(&edge, kShare * edge.rival_px);
+  }
+}
+
+void DoubtKinkedEdges(Blades* blades) {
+  constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
+  constexpr double kLeastPx = 0.5, kTimes = 2, kMost = 0.95;
+  const std::array<LocatedBlade*, 2> both{&blades->upper, &blades->lower};
+  const std::vector<double> kinks_px = ParallelMap(
+      2, [&](int i) { return OffPlainCurve(both[static_cast<std::size_t>(i)]->used, kMost); });
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    LocatedBlade* const blade = both[i];
+    const double kink_px = kinks_px[i];
+    const double length_px = (blade->used.back().trend_px - blade->used.front().trend_px).norm();
+    if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
+      throw Refused(Reason::kLowContrast,
+                    "edges: the upper cutting edge leaves a blade's smooth course by " +
+                        std::to_string(std::lround(kink_px)) +
+                        " px, as where the line of a bevel or the border of a shadow is followed "
+                        "part of the way; use another background or light");
+    }
+    if (kink_px > std::max({kKinked * length_px, kLeastPx, TotalSigma(blade->edge)}))
+      Doubt(&blade->edge, kTimes * kink_px);
+  }
+}
+
+void DoubtSofterEdge(Blades* blades) {
+  // Standard uncertainty per px of blur, over annotated photographs; rendered scenes need a third.
+  constexpr double kPerSofter = 1.2;
+  const double softer_px = blades->upper.edge.blur_px - blades->lower.edge.blur_px;
+  if (!std::isfinite(softer_px)) return;
+  AddSigma(&(softer_px > 0 ? blades->upper : blades->lower).edge, kPerSofter * softer_px);
+}
+
+void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
+  constexpr double kSharper = 0.7;  // of the blurs; of good edges in the sun 99 % exceed 0.78
+  constexpr double kOffPx = 1;      // at least
+  // Standard uncertainty per px of blur, as edges rendered in the sun are off.
+  constexpr double kPerSharper = 1.5, kPerSofter = 0.7;
+  const std::optional<double> print_px = PrintBlurPx(scale.markers);
+  if (!print_px) return;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
+    LocatedEdge& edge = blade->edge;
+    if (edge.blur_px < kSharper * *print_px) Doubt(&edge, kOffPx);
+    if (!std::isfinite(edge.unbound_blur_px)) continue;
+    const double softer_px = edge.unbound_blur_px - *print_px;
+    const double off_px = std::max(kPerSofter * softer_px, -kPerSharper * softer_px);
+    AddSigma(&edge, off_px);
+  }
+}
+
+void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
+  constexpr double kOfLength = 0.01;  // over annotated photographs
+  if (!scene.second_look) return;
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower})
+    AddSigma(&blade->edge, kOfLength * BladeLengthPx(pivot, *blades));
+}
+
+void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
+  constexpr double kOfDifference = 0.3;
+  if (!PassUnlike(pivot)) return;
+  const double turned_px =
+      kOfDifference * std::abs(pivot.asymmetry) * BladeLengthPx(pivot, *blades) / std::sqrt(2.0);
+  for (LocatedBlade* blade : {&blades->upper, &blades->lower})
+    blade->end.across_sigma_px = std::hypot(blade->end.across_sigma_px, turned_px);
+}
+
+}  // namespace bladecurve
