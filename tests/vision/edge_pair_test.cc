@@ -474,7 +474,10 @@ TEST(BladeView, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
   guess.path_px = {middle - 110 * along, middle + 110 * along};
   guess.blade_on_left = false;
   EXPECT_GT(TypicalSigma(LocateEdge(photo.grey(), scale.tone, guess).points), kFaintPx);
-  const Scene scene;
+  Scene scene;
+  scene.pivot_px = guess.path_px.front();
+  scene.left.tip_px = guess.path_px.back();
+  scene.left.inner_px = guess.path_px;
   const LocatedEdge edge = BladeView(photo, scale, scene).InGreyOrColours(guess);
   EXPECT_LT(TypicalSigma(edge.points), kClosePx);
   for (const LocatedEdgePoint& point : edge.points) {

@@ -322,6 +322,35 @@ TEST(Photo, DecodesTheColourOfItsTop) {
   }
 }
 
+TEST(Photo, DecodesAPartInColour) {
+  constexpr int kBorderPx = 2;  // at a part's border colours lack a neighbour
+  const cv::Mat picture = Gradient(333, 250);
+  const fs::path png = ProcessFolder() / "part.png";
+  WritePng(png, picture);
+  const std::vector<fs::path> files = {
+      Write("part.jpg", Jpeg(picture, {JCS_YCbCr, 3, 0, ""})),
+      Write("mirrored_part.jpg", Jpeg(picture, {JCS_YCbCr, 3, 0, Exif(2, 0)})),
+      png};
+  for (const fs::path& file : files) {
+    const Photo photo = Photo::Load(file);
+    const cv::Mat all = photo.DecodeColour(333);
+    for (const cv::Rect& asked : {cv::Rect(0, 0, 333, 250),
+                                  cv::Rect(101, 77, 90, 60),
+                                  cv::Rect(0, 200, 40, 50),
+                                  cv::Rect(300, -20, 50, 41)}) {
+      const PicturePart part = photo.DecodeColourPart(asked);
+      const cv::Rect wanted = asked & cv::Rect({0, 0}, all.size());
+      ASSERT_EQ(part.Area() & wanted, wanted) << file << asked;
+      const cv::Rect inner(wanted.tl() + cv::Point(kBorderPx, 0),
+                           wanted.size() - cv::Size(2 * kBorderPx, 0));
+      EXPECT_EQ(cv::norm(part.pixels(inner - part.corner_px), all(inner), cv::NORM_INF), 0)
+          << file << asked;
+    }
+    EXPECT_THROW(static_cast<void>(photo.DecodeColourPart({400, 0, 10, 10})),
+                 std::invalid_argument);
+  }
+}
+
 TEST(WritePng, ComesBackAsItWas) {
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 300), cv::Size(301, 5)}) {
     for (const int type : {CV_8UC1, CV_8UC3}) {

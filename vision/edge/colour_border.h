@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "vision/edge/edge.h"
+#include "vision/image/picture_part.h"
 #include "vision/image/tone_curve.h"
 
 namespace bladecurve {
 
-// A whole photograph's colours, reduced.
+// A photograph's colours, reduced.
 struct ReducedColours {
-  cv::Mat bgr;    // CV_8UC3
-  double px = 1;  // of the photograph, to one of its own
+  PicturePart bgr;  // CV_8UC3
+  double px = 1;    // of the photograph, to one of its own
 
   [[nodiscard]] Eigen::Vector2d Reduced(const Eigen::Vector2d& full_px) const {
     const auto half = Eigen::Vector2d::Constant(0.5);

@@ -29,7 +29,7 @@ struct SideLight {
 
 // The side `outwards` of the path (-1: the blade), some way off it: the guess may be as far off as
 // its search range. The part near the crotch, where the other blade is close, is left out.
-SideLight SampleSide(const cv::Mat& picture,
+SideLight SampleSide(const PicturePart& picture,
                      const ToneCurve& tone,
                      const EdgePath& path,
                      double search_px,
@@ -65,7 +65,7 @@ struct Sides {
   }
 };
 
-Sides SampleSides(const cv::Mat& picture, const ToneCurve& tone, const EdgeGuess& guess) {
+Sides SampleSides(const PicturePart& picture, const ToneCurve& tone, const EdgeGuess& guess) {
   constexpr double kSmoothing = 3;  // px
   const EdgePath path = SmoothPath(guess.path_px, guess.blade_on_left, kSmoothing);
   return {SampleSide(picture, tone, path, guess.search_px, -1),
@@ -108,8 +108,8 @@ cv::Mat Mixed(const cv::Mat& bgr,
   return mixed;
 }
 
-// The rectangle about the guess that LocateEdge may look at.
-cv::Rect SurroundingsOf(const EdgeGuess& guess, const cv::Size& size) {
+// The rectangle about the guess that LocateEdge may look at, as far as it lies in `area_px`.
+cv::Rect SurroundingsOf(const EdgeGuess& guess, const cv::Rect& area_px) {
   Vector2d low = guess.path_px.front(), high = low;
   for (const Vector2d& p : guess.path_px) {
     low = low.cwiseMin(p);
@@ -119,7 +119,7 @@ cv::Rect SurroundingsOf(const EdgeGuess& guess, const cv::Size& size) {
   const cv::Point corner(static_cast<int>(low.x() - margin), static_cast<int>(low.y() - margin));
   const cv::Point end(static_cast<int>(high.x() + margin) + 1,
                       static_cast<int>(high.y() + margin) + 1);
-  return cv::Rect(corner, end) & cv::Rect({0, 0}, size);
+  return cv::Rect(corner, end) & area_px;
 }
 
 ToneCurve LinearTone(const ToneCurve& original) {
@@ -178,20 +178,20 @@ double GreySeparation(const cv::Mat& grey, const ToneCurve& tone, const EdgeGues
   return std::abs(sides.ground.mean[0] - sides.blade.mean[0]) / std::sqrt(sides.Scatter()(0, 0));
 }
 
-ColourView ViewWhereSidesDiffer(const cv::Mat& bgr,
+ColourView ViewWhereSidesDiffer(const PicturePart& bgr,
                                 const ToneCurve& tone,
                                 const EdgeGuess& guess,
                                 double shade) {
   Sides sides = SampleSides(bgr, tone, guess);
   sides.ground.scatter += shade * shade * sides.ground.mean * sides.ground.mean.transpose();
   const Vector3d weights = sides.Scatter().ldlt().solve(sides.ground.mean - sides.blade.mean);
-  const cv::Rect around = SurroundingsOf(guess, bgr.size());
+  const cv::Rect around = SurroundingsOf(guess, bgr.Area());
   ColourView view;
   view.tone = LinearTone(tone);
   view.corner_px = {around.x, around.y};
   const double separation = sides.SeparationAlong(weights);
   if (separation > 0) {
-    view.grey = Mixed(bgr(around), tone, sides, weights);
+    view.grey = Mixed(bgr.pixels(around - bgr.corner_px), tone, sides, weights);
     view.separation = separation;
   } else {  // plain white on both sides, say, where it is 0 over 0
     view.grey = cv::Mat::zeros(around.size(), CV_8UC1);

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "vision/edge/edge.h"
+#include "vision/image/picture_part.h"
 #include "vision/image/tone_curve.h"
 
 namespace bladecurve {
@@ -24,9 +25,9 @@ struct ColourView {
   double separation = 0;            // as GreySeparation's
 };
 
-// bgr: CV_8UC3, the whole photograph at full resolution. shade: by what share the background's
+// bgr: CV_8UC3, of the photograph at full resolution. shade: by what share the background's
 // light may vary from shadows that lie beside the edge; the mixture shows them the less.
-[[nodiscard]] ColourView ViewWhereSidesDiffer(const cv::Mat& bgr,
+[[nodiscard]] ColourView ViewWhereSidesDiffer(const PicturePart& bgr,
                                               const ToneCurve& tone,
                                               const EdgeGuess& guess,
                                               double shade = 0);

@@ -41,7 +41,7 @@ struct Strips {
 };
 
 // Typical colour of a strip.
-std::optional<Chroma> ChromaAlong(const cv::Mat& bgr,
+std::optional<Chroma> ChromaAlong(const PicturePart& bgr,
                                   const ToneCurve& tone,
                                   const LocatedEdge& edge,
                                   const Strip& strip) {
@@ -61,7 +61,7 @@ std::optional<Chroma> ChromaAlong(const cv::Mat& bgr,
   return Chroma(Median(std::move(blue)), Median(std::move(red)));
 }
 
-DarkBand JudgeByColour(const cv::Mat& bgr,
+DarkBand JudgeByColour(const PicturePart& bgr,
                        const ToneCurve& tone,
                        const LocatedEdge& edge,
                        double blade_px) {
@@ -111,7 +111,7 @@ std::size_t StrideOf(const LocatedEdge& edge) {
 
 // How light changes along a strip: its logarithm at the points from `first` on, less a parabola, as
 // light falls off over ground and metal alike.
-std::optional<VectorXd> PatternAlong(const cv::Mat& bgr,
+std::optional<VectorXd> PatternAlong(const PicturePart& bgr,
                                      const ToneCurve& tone,
                                      const LocatedEdge& edge,
                                      std::size_t first,
@@ -162,7 +162,7 @@ Likeness Compare(const VectorXd& a, const VectorXd& b, Eigen::Index most_moved) 
 
 }  // namespace
 
-DarkBand JudgeByPattern(const cv::Mat& picture,
+DarkBand JudgeByPattern(const PicturePart& picture,
                         const ToneCurve& tone,
                         const LocatedEdge& edge,
                         const std::vector<Vector2d>& other_px) {
@@ -194,7 +194,7 @@ DarkBand JudgeByPattern(const cv::Mat& picture,
   return follows.slope < kHardly * goes_on.slope ? DarkBand::kMetal : DarkBand::kUnknown;
 }
 
-DarkBand JudgeDarkBand(const cv::Mat& bgr,
+DarkBand JudgeDarkBand(const PicturePart& bgr,
                        const ToneCurve& tone,
                        const LocatedEdge& edge,
                        double blade_px,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "vision/edge/edge.h"
+#include "vision/image/picture_part.h"
 #include "vision/image/tone_curve.h"
 
 namespace bladecurve {
@@ -19,10 +20,10 @@ enum class DarkBand {
 };
 
 // Judges the band between a located edge and its rival: by colour; where blade and background are
-// alike in that, by whether the background's pattern goes on in it. bgr: CV_8UC3, the whole
-// photograph at full resolution; blade_px: how wide the blade is; other_px: where the other blade's
-// edge runs, beyond which there is no background.
-[[nodiscard]] DarkBand JudgeDarkBand(const cv::Mat& bgr,
+// alike in that, by whether the background's pattern goes on in it. bgr: CV_8UC3, of the photograph
+// at full resolution; blade_px: how wide the blade is; other_px: where the other blade's edge runs,
+// beyond which there is no background.
+[[nodiscard]] DarkBand JudgeDarkBand(const PicturePart& bgr,
                                      const ToneCurve& tone,
                                      const LocatedEdge& edge,
                                      double blade_px,
@@ -30,7 +31,7 @@ enum class DarkBand {
 
 // By the pattern alone: a shadow leaves it as it is, only darker; metal has none of it. So tells a
 // background whose pattern goes on for as far as from the band to it. picture: CV_8UC3 or CV_8UC1.
-[[nodiscard]] DarkBand JudgeByPattern(const cv::Mat& picture,
+[[nodiscard]] DarkBand JudgeByPattern(const PicturePart& picture,
                                       const ToneCurve& tone,
                                       const LocatedEdge& edge,
                                       const std::vector<Eigen::Vector2d>& other_px);

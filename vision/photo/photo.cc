@@ -149,7 +149,7 @@ Photo Photo::Load(const std::filesystem::path& path) {
     const int orientation = photo.metadata_.orientation;
     photo.metadata_.orientation = WithColumnsFlipped(orientation);
     photo.mirrored_ = photo.metadata_.orientation != orientation;
-    photo.grey_ = photo.Unmirrored(decoded.pixels);
+    photo.grey_ = photo.Unmirrored(decoded.picture.pixels);
     return photo;
   } catch (const std::bad_alloc&) {
     Refuse(path, "there is not enough memory for it");
@@ -165,11 +165,17 @@ cv::Mat Photo::Unmirrored(const cv::Mat& pixels) const {
   return flipped;
 }
 
+cv::Rect Photo::Unmirrored(const cv::Rect& area_px) const {
+  if (!mirrored_) return area_px;
+  return {cv::Point(grey_.cols - area_px.br().x, area_px.y), area_px.size()};
+}
+
 std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
 cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");
-  const cv::Mat colour = Unmirrored(Decode(bytes_, {true, max_side}).pixels);
+  const cv::Mat colour =
+      Unmirrored(Decode(bytes_, {.colour = true, .long_side = max_side}).picture.pixels);
   const double factor = static_cast<double>(max_side) / std::max(colour.cols, colour.rows);
   if (factor * slack >= 1) return colour;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(colour.cols * factor))),
@@ -179,11 +185,19 @@ cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   return small;
 }
 
+PicturePart Photo::DecodeColourPart(const cv::Rect& part_px) const {
+  const cv::Rect part = part_px & cv::Rect({0, 0}, grey_.size());
+  if (part.empty()) throw std::invalid_argument("Photo::DecodeColourPart: nothing of the picture");
+  const PicturePart decoded = Decode(bytes_, {.colour = true, .part = Unmirrored(part)}).picture;
+  return {Unmirrored(decoded.pixels), Unmirrored(decoded.Area()).tl()};
+}
+
 cv::Mat Photo::DecodeTopColour(double share, int max_side) const {
   if (!(share > 0 && share <= 1))
     throw std::invalid_argument("Photo::DecodeTopColour: share must be in (0, 1]");
+  const cv::Rect top(0, 0, grey_.cols, static_cast<int>(std::ceil(share * grey_.rows)));
   const cv::Mat colour = Unmirrored(
-      Decode(bytes_, {.colour = true, .long_side = max_side, .top_share = share}).pixels);
+      Decode(bytes_, {.colour = true, .long_side = max_side, .part = top}).picture.pixels);
   const double rows = share * colour.cols * grey_.rows / grey_.cols;
   return colour.rowRange(0, std::clamp(static_cast<int>(std::ceil(rows)), 1, colour.rows));
 }

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "vision/image/picture_part.h"
+
 namespace bladecurve {
 
 inline constexpr double kMmPerInch = 25.4;
@@ -32,8 +34,11 @@ class Photo {
   // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
   // will do. Up to `slack` times that, >= 1, where that saves reducing it.
   [[nodiscard]] cv::Mat DecodeColour(int max_side, double slack = 1) const;
-  // The same of the topmost rows, a share of all in (0, 1], as large as the file gives them from
-  // max_side on; of JPEG and PNG files in as little of the time.
+  // At least that part of it in colour, BGR, CV_8UC3, in full size; of JPEG files in little more
+  // time than it takes to read them up to its end.
+  [[nodiscard]] PicturePart DecodeColourPart(const cv::Rect& part_px) const;
+  // The topmost rows, a share of all in (0, 1], as large as the file gives them from max_side on;
+  // of JPEG and PNG files in as little of the time.
   [[nodiscard]] cv::Mat DecodeTopColour(double share, int max_side) const;
   // Of the file's bytes, lower-case hex; made when asked for.
   [[nodiscard]] std::string Sha256() const;
@@ -47,6 +52,8 @@ class Photo {
 
  private:
   [[nodiscard]] cv::Mat Unmirrored(const cv::Mat& pixels) const;
+  // From the file's columns to the photograph's, and back.
+  [[nodiscard]] cv::Rect Unmirrored(const cv::Rect& area_px) const;
 
   cv::Mat grey_;
   PhotoMetadata metadata_;

@@ -7,14 +7,16 @@
 #include <string>
 #include <string_view>
 
+#include "vision/image/picture_part.h"
+
 namespace bladecurve {
 
 struct DecodeOptions {
   bool colour = false;  // CV_8UC3 BGR instead of CV_8UC1 luma
   int long_side =
       0;  // a codec may decode smaller as long as the longest side keeps this; 0: full size
-  int num_threads = 1;   // a codec may use as many; the pixels are the same
-  double top_share = 1;  // of the rows, in (0, 1]: a codec may leave off those below
+  int num_threads = 1;  // a codec may use as many; the pixels are the same
+  cv::Rect part = {};   // of the full size, all that is wanted; empty: everything
 };
 
 // What a file says beside its pixels, as far as its container knows.
@@ -27,7 +29,7 @@ struct FileFacts {
 };
 
 struct DecodedPhoto {
-  cv::Mat pixels;  // as asked for by DecodeOptions, stored orientation
+  PicturePart picture;  // as asked for by DecodeOptions, stored orientation; a codec may give more
   int stored_width = 0, stored_height = 0;
   FileFacts facts;
 };

@@ -78,7 +78,7 @@ class JpegReader {
 
   int width() const { return static_cast<int>(info_.image_width); }
   int height() const { return static_cast<int>(info_.image_height); }
-  cv::Mat Decode(const DecodeOptions& options);
+  PicturePart Decode(const DecodeOptions& options);
   // Whether parts of the picture may be decoded beside each other, and quicker than all in turn.
   bool Divisible();
   // Full-size grey rows [first, last) into the same rows of `grey`, CV_8UC1.
@@ -94,8 +94,11 @@ class JpegReader {
   }
   PixelLayout ChooseLayout(bool colour);
   void ChooseSize(int long_side);
-  // From the next row to be decoded to `last`.
-  void ReadRows(int last, cv::Mat* pixels);
+  // The part, in pixels as they are decoded, grown to whole blocks of columns; what lies before its
+  // first row is passed over.
+  cv::Rect GoTo(const cv::Rect& part);
+  // From the next row to be decoded to `last`, into rows that begin with `first`.
+  void ReadRows(int first, int last, cv::Mat* pixels);
 
   Decompressor owner_;
   jpeg_decompress_struct& info_ = owner_.info;
@@ -124,21 +127,35 @@ void JpegReader::ChooseSize(int long_side) {
   }
 }
 
-cv::Mat JpegReader::Decode(const DecodeOptions& options) {
+PicturePart JpegReader::Decode(const DecodeOptions& options) {
   const PixelLayout layout = ChooseLayout(options.colour);
   ChooseSize(options.long_side);
   Guarded([&] { jpeg_start_decompress(&info_); });
-  const int rows = static_cast<int>(std::ceil(options.top_share * info_.output_height));
-  cv::Mat stored =
-      NewPicture(cv::Size(static_cast<int>(info_.output_width), rows), CV_8UC(ChannelsOf(layout)));
-  ReadRows(stored.rows, &stored);
-  return ConvertPixels(stored, layout, options.colour);
+  const cv::Rect all(
+      0, 0, static_cast<int>(info_.output_width), static_cast<int>(info_.output_height));
+  const cv::Rect part = options.part.empty() ? all : GoTo(options.part);
+  cv::Mat stored = NewPicture(part.size(), CV_8UC(ChannelsOf(layout)));
+  ReadRows(part.y, part.br().y, &stored);
+  return {ConvertPixels(stored, layout, options.colour), part.tl()};
 }
 
-void JpegReader::ReadRows(int last, cv::Mat* pixels) {
+cv::Rect JpegReader::GoTo(const cv::Rect& part) {
+  const int eighths = static_cast<int>(info_.scale_num);
+  const cv::Point first = part.tl() * eighths / 8;
+  const cv::Point last((part.br().x * eighths + 7) / 8, (part.br().y * eighths + 7) / 8);
+  auto column = static_cast<JDIMENSION>(first.x),
+       columns = static_cast<JDIMENSION>(last.x - first.x);
+  Guarded([&] {
+    jpeg_crop_scanline(&info_, &column, &columns);
+    jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first.y));
+  });
+  return {static_cast<int>(column), first.y, static_cast<int>(columns), last.y - first.y};
+}
+
+void JpegReader::ReadRows(int first, int last, cv::Mat* pixels) {
   Guarded([&] {
     while (info_.output_scanline < static_cast<JDIMENSION>(last)) {
-      JSAMPROW row = pixels->ptr<uchar>(static_cast<int>(info_.output_scanline));
+      JSAMPROW row = pixels->ptr<uchar>(static_cast<int>(info_.output_scanline) - first);
       jpeg_read_scanlines(&info_, &row, 1);
     }
   });
@@ -158,7 +175,7 @@ void JpegReader::DecodeGreyRows(int first, int last, cv::Mat* grey) {
     jpeg_start_decompress(&info_);
     jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first));
   });
-  ReadRows(last, grey);
+  ReadRows(0, last, grey);
 }
 
 FileFacts JpegReader::Facts() const {
@@ -198,7 +215,7 @@ DecodedPhoto DecodeJpeg(std::string_view bytes, const DecodeOptions& options) {
   CheckPhotoSize(size.width, size.height);
   const bool whole_grey = !options.colour && options.long_side <= 0;
   const bool in_two = whole_grey && options.num_threads >= 2 && reader.Divisible();
-  return {in_two ? DecodeGreyInTwo(bytes, size) : reader.Decode(options),
+  return {in_two ? PicturePart(DecodeGreyInTwo(bytes, size)) : reader.Decode(options),
           size.width,
           size.height,
           reader.Facts()};

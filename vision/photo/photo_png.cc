@@ -95,9 +95,8 @@ cv::Mat PngReader::Decode(const DecodeOptions& options) {
   const PixelLayout layout = Layout();
   // Of an interlaced picture every row comes in several passes over all of it.
   const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
-  const double share = interlaced ? 1 : options.top_share;
-  cv::Mat stored = NewPicture(cv::Size(width(), static_cast<int>(std::ceil(share * height()))),
-                              CV_8UC(ChannelsOf(layout)));
+  const int last = interlaced || options.part.empty() ? height() : options.part.br().y;
+  cv::Mat stored = NewPicture(cv::Size(width(), last), CV_8UC(ChannelsOf(layout)));
   std::vector<png_bytep> rows(static_cast<size_t>(stored.rows));
   for (int y = 0; y < stored.rows; ++y) rows[static_cast<size_t>(y)] = stored.ptr<uchar>(y);
   Guarded([&] {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "vision/image/robust_statistics.h"
@@ -24,6 +25,36 @@ std::vector<double> Distances(const LocatedEdge& edge, const LocatedEdge& other)
   std::vector<double> distances;
   for (const LocatedEdgePoint& p : edge.points) distances.push_back(DistanceTo(other, p.trend_px));
   return distances;
+}
+
+// About both blades, as far as anything that is looked for may lie off them.
+cv::Rect AreaOf(const Scene& scene, const cv::Size& size) {
+  constexpr double kOfLength = 0.25;  // of a blade
+  Vector2d low = scene.pivot_px, high = low;
+  double margin = 0;
+  for (const SceneBlade* blade : {&scene.left, &scene.right}) {
+    for (const std::vector<Vector2d>* side : {&blade->inner_px, &blade->outer_px}) {
+      for (const Vector2d& p : *side) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+      }
+    }
+    margin = std::max(margin, kOfLength * (blade->tip_px - scene.pivot_px).norm());
+  }
+  const cv::Point first(static_cast<int>(low.x() - margin), static_cast<int>(low.y() - margin));
+  const cv::Point last(static_cast<int>(high.x() + margin), static_cast<int>(high.y() + margin));
+  return cv::Rect(first, last) & cv::Rect({0, 0}, size);
+}
+
+// One pixel for each two by two of the picture.
+PicturePart Halved(const PicturePart& part) {
+  const cv::Rect area = part.Area();
+  const cv::Point first((area.x + 1) / 2, (area.y + 1) / 2), last = area.br() / 2;
+  const cv::Size size(last - first);
+  cv::Mat half;
+  cv::resize(
+      part.pixels(cv::Rect(2 * first - area.tl(), size * 2)), half, size, 0, 0, cv::INTER_AREA);
+  return {half, first};
 }
 
 }  // namespace
@@ -113,16 +144,17 @@ std::optional<Margin> BladeView::DarkLineOf(const LocatedEdge& edge, bool left) 
   return FindDarkLine(grey(), tone(), edge, BladeOf(scene_, left).width_px);
 }
 
-const cv::Mat& BladeView::Colours() const {
-  std::call_once(decoded_, [this] { colours_ = photo_.DecodeColour(LongSide()); });
+const PicturePart& BladeView::Colours() const {
+  std::call_once(decoded_,
+                 [this] { colours_ = photo_.DecodeColourPart(AreaOf(scene_, grey().size())); });
   return colours_;
 }
 
 ReducedColours BladeView::Reduced() const {
-  constexpr int kSmallest = 1000;  // px, of the longest side
-  const int half = (LongSide() + 1) / 2;
-  const cv::Mat bgr = half < kSmallest ? Colours() : photo_.DecodeColour(half);
-  return {bgr, static_cast<double>(grey().cols) / bgr.cols};
+  constexpr int kSmallest = 2000;  // px, of the longest side
+  const PicturePart& full = Colours();
+  if (std::max(grey().cols, grey().rows) < kSmallest) return {full, 1};
+  return {Halved(full), 2};
 }
 
 bool BladeView::ShowsColourAtTop() const {
@@ -130,8 +162,6 @@ bool BladeView::ShowsColourAtTop() const {
   constexpr int kLongSide = 1000;    // px
   return ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone());
 }
-
-int BladeView::LongSide() const { return std::max(grey().cols, grey().rows); }
 
 double InlyingShare(const LocatedEdge& edge) {
   const auto inlying = std::count_if(edge.points.begin(),

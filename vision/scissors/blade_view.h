@@ -11,6 +11,7 @@
 #include "vision/edge/edge.h"
 #include "vision/edge/edge_colour.h"
 #include "vision/edge/edge_margin.h"
+#include "vision/image/picture_part.h"
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/scene/scene.h"
@@ -74,9 +75,9 @@ class BladeView {
   [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const;
   [[nodiscard]] std::optional<Margin> DarkLineOf(const LocatedEdge& edge, bool left) const;
 
-  // BGR, the whole photograph; and at half the resolution, at which colours are stored anyway. Of a
-  // photograph that would not be reduced, the whole, decoded but once.
-  [[nodiscard]] const cv::Mat& Colours() const;
+  // BGR, about the blades; and at half the resolution, at which colours are stored anyway, where
+  // the photograph is large.
+  [[nodiscard]] const PicturePart& Colours() const;
   [[nodiscard]] ReducedColours Reduced() const;
   // Whether the topmost rows, which stand for the ground, show a colour.
   [[nodiscard]] bool ShowsColourAtTop() const;
@@ -87,14 +88,13 @@ class BladeView {
   template <typename Look>
   [[nodiscard]] std::optional<LocatedEdge> InColours(const Look& look,
                                                      const EdgeGuess& guess) const;
-  [[nodiscard]] int LongSide() const;
 
   const Photo& photo_;
   const ScaleResult& scale_;
   const Scene& scene_;
   EdgeOptions options_;
   mutable std::once_flag decoded_;
-  mutable cv::Mat colours_;
+  mutable PicturePart colours_;
 };
 
 // What an edge's points tell about where it runs, for comparison with another along it. 1/px^2.
