@@ -225,11 +225,11 @@ SceneFinder::SceneFinder(const Photo& photo,
                          const std::vector<SeenMarker>& markers,
                          const StoredHints& hints,
                          StageLog* log)
-    : photo_(photo),
-      markers_(markers),
+    : markers_(markers),
       hints_(hints),
       log_(log),
-      first_(std::make_unique<LadderResult>(ClimbLadder(photo, markers, hints, log->plan(), log))) {
+      ladder_(std::make_unique<SceneLadder>(photo, markers_, hints_, log)),
+      first_(std::make_unique<LadderResult>(ladder_->Climb(log->plan()))) {
   RefuseUnlessUsable(*first_, hints_);
 }
 
@@ -258,8 +258,7 @@ void SceneFinder::LookAgain() {
   } else if (first_->climbed) {
     later_ = std::make_unique<LadderResult>(by_other_methods(*first_));
   } else {
-    later_ = std::make_unique<LadderResult>(
-        by_other_methods(ClimbLadder(photo_, markers_, hints_, Plan::kFull, log_)));
+    later_ = std::make_unique<LadderResult>(by_other_methods(ladder_->Climb(Plan::kFull)));
   }
   RefuseUnlessUsable(Shown(), hints_);
 }

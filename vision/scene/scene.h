@@ -45,6 +45,7 @@ struct Scene {
   [[nodiscard]] bool IsDoubtful() const { return quality < 0.75 || outlined || second_look; }
 };
 
+class SceneLadder;
 struct LadderResult;
 
 // Finds the scissors: in the likeliest mask or, where what that one shows proves to be no blades,
@@ -70,10 +71,10 @@ class SceneFinder {
   void LookAgain();
 
  private:
-  const Photo& photo_;
   std::vector<SeenMarker> markers_;
   StoredHints hints_;
   StageLog* log_;
+  std::unique_ptr<SceneLadder> ladder_;
   std::unique_ptr<const LadderResult> first_, later_;  // what the looks showed; later_ may be empty
   int looks_ = 1;
 

@@ -34,6 +34,7 @@ struct Candidate {
 
 // What one rung of the ladder saw.
 struct Rung {
+  std::string method;  // as of its candidates
   std::vector<Candidate> candidates;
   int closed = 0;    // masks in which something looks like closed scissors
   cv::Mat distance;  // from the background, or how sharply it is walled in; CV_32FC1

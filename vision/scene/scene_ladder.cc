@@ -137,11 +137,12 @@ bool Consistent(const LadderResult& result) {
   return result.best.pair.quality >= 0.9 && result.best.agreeing >= enough;
 }
 
-// Adds what a rung saw to what is known, and draws it where pictures are wanted.
-LadderResult Consider(Rung rung, const std::string& name, Rung* all, StageLog* log) {
-  if (log->wants_pictures()) log->Picture(name, DrawRung(rung));
-  std::move(rung.candidates.begin(), rung.candidates.end(), std::back_inserter(all->candidates));
-  all->closed = std::max(all->closed, rung.closed);
+// Adds what a stage's rungs saw to what is known.
+LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
+  for (const Rung& rung : stage) {
+    all->candidates.insert(all->candidates.end(), rung.candidates.begin(), rung.candidates.end());
+    all->closed = std::max(all->closed, rung.closed);
+  }
   LadderResult result = Choose(all->candidates);
   constexpr int kAgreeing = 3;  // fewer masks may show by chance what looks like that
   result.closed = all->closed >= kAgreeing;
@@ -155,67 +156,6 @@ bool ShowsWholeBlades(const LadderResult& result) {
 }
 
 const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
-
-// Fills in what all rungs saw.
-LadderResult Climb(const SceneView& view, Plan plan, Rung* all, StageLog* log) {
-  const bool full = plan == Plan::kFull;
-  LadderResult result = Consider(GreyRung(view), "rung-grey", all, log);
-  log->Ran("scene-grey",
-           view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look");
-  const bool grey_suffices = Consistent(result);
-  if (grey_suffices && !full && !ShowsAnother(result.best)) {
-    log->Skipped("scene-colour", "grey gave a consistent scene");
-    return result;
-  }
-  const ColourPictures colour = SmallColour(view, kSmallSide);
-  Consider(ColourRung(view, colour), "rung-colour", all, log);
-  Rung shadow_blind = ShadowBlindRung(view, colour);
-  const cv::Mat without_shadows = shadow_blind.distance;
-  const LadderResult in_colour = Consider(std::move(shadow_blind), "rung-shadow-blind", all, log);
-  if (grey_suffices && !full) {
-    log->Ran("scene-colour", "another thing lies beside the scissors");
-    result.several = result.several || in_colour.several;
-    return result;
-  }
-  result = in_colour;
-  log->Ran("scene-colour", WhyRun(full, "grey did not separate the blades"));
-  if (Consistent(result) && !full) {
-    log->Skipped("scene-flood", "colour gave a consistent scene");
-    return result;
-  }
-  const Outlines outlines = OutlinesIn(view);
-  result = Consider(FloodRung(view, outlines), "rung-flood", all, log);
-  log->Ran("scene-flood", WhyRun(full, "no threshold separates the blades"));
-  if (ShowsWholeBlades(result) && !full) {
-    log->Skipped("scene-regions", "the flood left blades dry");
-    return result;
-  }
-  result = Consider(RegionRung(view, outlines), "rung-regions", all, log);
-  log->Ran("scene-regions", WhyRun(full, "the flood ran into the blades"));
-  result.climbed = true;
-  if (ShowsWholeBlades(result) && !full) {
-    log->Skipped("scene-broad", "the regions show blades");
-    return result;
-  }
-  Rung broad;  // by itself: what lines make look like blades is none
-  LadderResult in_broad =
-      Consider(BroadRung(view, colour, without_shadows), "rung-broad", &broad, log);
-  log->Ran("scene-broad", WhyRun(full, "lines may cross the ground"));
-  // Without the slender parts, shanks are left that look like blades, but not like whole scissors.
-  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad) || !Consistent(in_broad))
-    return result;
-  *all = std::move(broad);
-  in_broad.climbed = true;
-  return in_broad;
-}
-
-// The same with all that was seen.
-LadderResult ClimbNoting(const SceneView& view, Plan plan, StageLog* log) {
-  Rung all;
-  LadderResult result = Climb(view, plan, &all, log);
-  result.seen = std::move(all.candidates);
-  return result;
-}
 
 // What the candidates that are kept show best.
 template <typename IsKept>
@@ -239,26 +179,126 @@ double TurnAtJoint(const LadderResult& result) {
   return Median(turns);
 }
 
-LadderResult ClimbLadder(const Photo& photo,
+SceneLadder::SceneLadder(const Photo& photo,
                          const std::vector<SeenMarker>& markers,
                          const StoredHints& hints,
-                         Plan plan,
-                         StageLog* log) {
-  const SceneView view(photo, markers, hints);
-  if (std::min(view.area_px.width, view.area_px.height) < kSmallestSide) {
+                         StageLog* log)
+    : log_(log), as_is_{{photo, markers, hints}, {}, {}, {}}, smooth_(as_is_) {
+  smooth_.view.smooth = true;
+  if (std::min(as_is_.view.area_px.width, as_is_.view.area_px.height) < kSmallestSide) {
     throw Refused(Reason::kTooSmall,
                   std::string("scene: ") + (hints.roi_px ? "--roi" : "the picture") +
                       " is less than " + std::to_string(kSmallestSide) + " px high or wide; " +
                       (hints.roi_px ? "give a larger one" : "use a larger photograph"));
   }
-  const LadderResult result = ClimbNoting(view, plan, log);
-  if (ShowsWholeBlades(result) || result.closed || !view.KeepsNoise(kSmallSide)) return result;
-  SceneView smooth = view;
-  smooth.smooth = true;
-  LadderResult in_smooth = ClimbNoting(smooth, plan, log);
+}
+
+LadderResult SceneLadder::Climb(Plan plan) {
+  const LadderResult result = ClimbNoting(plan, &as_is_);
+  if (ShowsWholeBlades(result) || result.closed || !as_is_.view.KeepsNoise(kSmallSide))
+    return result;
+  LadderResult in_smooth = ClimbNoting(plan, &smooth_);
   if (!ShowsWholeBlades(in_smooth)) return result;
   in_smooth.climbed = true;
   return in_smooth;
+}
+
+template <typename Look>
+const std::vector<Rung>& SceneLadder::See(const std::string& stage,
+                                          const std::string& why,
+                                          Looked* looked,
+                                          const Look& look) {
+  const auto before = looked->stages.find(stage);
+  if (before != looked->stages.end()) {
+    log_->Skipped(stage, "was looked at before");
+    return before->second;
+  }
+  const std::vector<Rung>& seen = looked->stages.emplace(stage, look()).first->second;
+  if (log_->wants_pictures()) {
+    for (const Rung& rung : seen) log_->Picture("rung-" + rung.method, DrawRung(rung));
+  }
+  log_->Ran(stage, why);
+  return seen;
+}
+
+LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
+  Rung all;
+  LadderResult result = ClimbIn(plan, looked, &all);
+  result.seen = std::move(all.candidates);
+  return result;
+}
+
+LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
+  const SceneView& view = looked->view;
+  const bool full = plan == Plan::kFull;
+  const auto see = [&](const char* stage, const std::string& why, const auto& look) {
+    return See(stage, why, looked, look);
+  };
+  LadderResult result =
+      Consider(see("scene-grey",
+                   view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look",
+                   [&] { return std::vector{GreyRung(view)}; }),
+               all);
+  const bool grey_suffices = Consistent(result);
+  if (grey_suffices && !full && !ShowsAnother(result.best)) {
+    log_->Skipped("scene-colour", "grey gave a consistent scene");
+    return result;
+  }
+  const std::vector<Rung>& by_colour =
+      see("scene-colour",
+          WhyRun(full,
+                 grey_suffices ? "another thing lies beside the scissors"
+                               : "grey did not separate the blades"),
+          [&] {
+            looked->colour = SmallColour(view, kSmallSide);
+            return std::vector{ColourRung(view, *looked->colour),
+                               ShadowBlindRung(view, *looked->colour)};
+          });
+  const LadderResult in_colour = Consider(by_colour, all);
+  if (grey_suffices && !full) {
+    result.several = result.several || in_colour.several;
+    return result;
+  }
+  result = in_colour;
+  if (Consistent(result) && !full) {
+    log_->Skipped("scene-flood", "colour gave a consistent scene");
+    return result;
+  }
+  result = Consider(see("scene-flood",
+                        WhyRun(full, "no threshold separates the blades"),
+                        [&] {
+                          looked->outlines = OutlinesIn(view);
+                          return std::vector{FloodRung(view, *looked->outlines)};
+                        }),
+                    all);
+  if (ShowsWholeBlades(result) && !full) {
+    log_->Skipped("scene-regions", "the flood left blades dry");
+    return result;
+  }
+  result = Consider(see("scene-regions",
+                        WhyRun(full, "the flood ran into the blades"),
+                        [&] { return std::vector{RegionRung(view, *looked->outlines)}; }),
+                    all);
+  result.climbed = true;
+  if (ShowsWholeBlades(result) && !full) {
+    log_->Skipped("scene-broad", "the regions show blades");
+    return result;
+  }
+  Rung broad;  // by itself: what lines make look like blades is none
+  LadderResult in_broad =
+      Consider(see("scene-broad",
+                   WhyRun(full, "lines may cross the ground"),
+                   [&] {
+                     const cv::Mat& without_shadows = by_colour.back().distance;
+                     return std::vector{BroadRung(view, *looked->colour, without_shadows)};
+                   }),
+               &broad);
+  // Without the slender parts, shanks are left that look like blades, but not like whole scissors.
+  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad) || !Consistent(in_broad))
+    return result;
+  *all = std::move(broad);
+  in_broad.climbed = true;
+  return in_broad;
 }
 
 LadderResult ByOtherMethods(const LadderResult& result, const std::string& method) {

@@ -59,6 +59,7 @@ Rung ThresholdAll(const cv::Mat& distance,
   const std::vector<double> thresholds = ThresholdsUpTo(smooth);
   const int all = static_cast<int>(thresholds.size());
   Rung rung;
+  rung.method = like.method;
   rung.distance = distance;
   for (int first = 0; first < all && !Settled(rung.candidates);) {
     const int count = std::min(all - first, first == 0 ? kEnough : UsableThreads());
@@ -177,6 +178,7 @@ Rung FloodRung(const SceneView& view, const Outlines& outlines) {
   const ColourPictures& colour = outlines.colour;
   const Candidate like{{}, colour.lab, {}, "flood"};
   Rung rung;
+  rung.method = like.method;
   for (const auto& [closed_px, walls] : outlines.closed) {
     cv::Mat levels = FloodLevels(walls, outlines.ground);
     if (!colour.ignore.empty()) levels.setTo(0, colour.ignore);
@@ -194,6 +196,7 @@ Rung RegionRung(const SceneView& view, const Outlines& outlines) {
   Candidate like{{}, colour.lab, {}, "regions"};
   like.outlined = true;
   Rung rung;
+  rung.method = like.method;
   for (const auto& [closed_px, walls] : outlines.closed)
     AddLevels(MergingLevels(walls, ground), kSpeckPx, like, view, colour.ignore, &rung);
   return rung;

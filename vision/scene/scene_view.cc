@@ -45,7 +45,7 @@ cv::Mat SmallBgr(const SceneView& view, int longest) {
   const cv::Size full = view.photo.grey().size();
   const double zoom =
       std::max(full.width, full.height) / std::max(view.area_px.width, view.area_px.height);
-  const cv::Mat colour = view.photo.DecodeColour(static_cast<int>(std::ceil(longest * zoom)));
+  const cv::Mat& colour = view.colour->AtLeast(static_cast<int>(std::ceil(longest * zoom)));
   const double k = static_cast<double>(colour.cols) / full.width;
   const cv::Rect2d area(
       view.area_px.x * k, view.area_px.y * k, view.area_px.width * k, view.area_px.height * k);
@@ -57,13 +57,22 @@ cv::Mat SmallBgr(const SceneView& view, int longest) {
 
 }  // namespace
 
+const cv::Mat& DecodedColour::AtLeast(int side) {
+  constexpr double kSlack = 2;  // a codec halves as long as that keeps the side
+  const int whole = std::max(photo_.grey().cols, photo_.grey().rows);
+  if (std::max(bgr_.cols, bgr_.rows) < std::min(side, whole))
+    bgr_ = photo_.DecodeColour(side, kSlack);
+  return bgr_;
+}
+
 SceneView::SceneView(const Photo& photo_in,
                      const std::vector<SeenMarker>& markers_in,
                      const StoredHints& hints_in)
     : photo(photo_in),
       markers(markers_in),
       hints(hints_in),
-      area_px(WholeOrRoi(photo_in, hints_in)) {}
+      area_px(WholeOrRoi(photo_in, hints_in)),
+      colour(std::make_shared<DecodedColour>(photo_in)) {}
 
 bool SceneView::KeepsNoise(int longest) const {
   constexpr double kReduced = 1.5;

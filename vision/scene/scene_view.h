@@ -31,12 +31,27 @@ struct ScaledImage {
   }
 };
 
+// A photograph in colour, decoded as small as whoever asked first needs it, and anew only for those
+// who need it larger.
+class DecodedColour {
+ public:
+  explicit DecodedColour(const Photo& photo) : photo_(photo) {}
+
+  // BGR, CV_8UC3, the longest side not below `side` px if the photograph's is not.
+  [[nodiscard]] const cv::Mat& AtLeast(int side);
+
+ private:
+  const Photo& photo_;
+  cv::Mat bgr_;
+};
+
 // What scene finding looks at: the photograph, or the part of it that the user points at.
 struct SceneView {
   const Photo& photo;
   const std::vector<SeenMarker>& markers;
   const StoredHints& hints;
   cv::Rect area_px;
+  std::shared_ptr<DecodedColour> colour;
   // Small pictures are smoothed: those that are hardly reduced keep all noise of the photograph.
   bool smooth = false;
 
