@@ -65,17 +65,16 @@ std::optional<Ends> FindEnds(const Outline& outline, const Crossing& at) {
   Ends ends;
   ends.tip_first_at = LimbEnd(outline, gap, back, Way::kBack, axis);
   ends.tip_second_at = LimbEnd(outline, gap, back, Way::kOn, axis);
-  ends.shank_first_at = LimbEnd(outline, back, gap, Way::kBack, -axis);
-  ends.shank_second_at = LimbEnd(outline, back, gap, Way::kOn, -axis);
-  if (std::min({ends.tip_first_at, ends.tip_second_at, ends.shank_first_at, ends.shank_second_at}) <
-      0)
-    return std::nullopt;
+  if (std::min(ends.tip_first_at, ends.tip_second_at) < 0) return std::nullopt;
   ends.tip_first = outline.At(ends.tip_first_at);
   ends.tip_second = outline.At(ends.tip_second_at);
-  ends.shank_first = outline.At(ends.shank_first_at);
-  ends.shank_second = outline.At(ends.shank_second_at);
   if (std::min((ends.tip_first - crotch).norm(), (ends.tip_second - crotch).norm()) < kShortest)
     return std::nullopt;
+  ends.shank_first_at = LimbEnd(outline, back, gap, Way::kBack, -axis);
+  ends.shank_second_at = LimbEnd(outline, back, gap, Way::kOn, -axis);
+  if (std::min(ends.shank_first_at, ends.shank_second_at) < 0) return std::nullopt;
+  ends.shank_first = outline.At(ends.shank_first_at);
+  ends.shank_second = outline.At(ends.shank_second_at);
   return ends;
 }
 

@@ -44,12 +44,10 @@ cv::Mat Flood(const cv::Mat& bins, const cv::Mat& ground) {
 
 cv::Mat FloodLevels(const cv::Mat& walls, const cv::Mat& ground) {
   const cv::Mat reached = Flood(WallBins(walls), ground);
-  cv::Mat levels(walls.size(), CV_32FC1);
-  for (int row = 0; row < walls.rows; ++row) {
-    const uchar* bin = reached.ptr(row);
-    float* level = levels.ptr<float>(row);
-    for (int col = 0; col < walls.cols; ++col) level[col] = WallOfBin(bin[col]);
-  }
+  cv::Mat wall_of_bin(1, 256, CV_32FC1);
+  for (int bin = 0; bin < wall_of_bin.cols; ++bin) wall_of_bin.at<float>(bin) = WallOfBin(bin);
+  cv::Mat levels;
+  cv::LUT(reached, wall_of_bin, levels);
   return levels;
 }
 

@@ -16,4 +16,11 @@ void ForNeighbours(const cv::Size& size, int p, const Visit& visit) {
   if (p + size.width < size.area()) visit(p + size.width);
 }
 
+// Of these those that come later than p: every pair of neighbours once.
+template <typename Visit>
+void ForLaterNeighbours(const cv::Size& size, int p, const Visit& visit) {
+  if (p % size.width + 1 < size.width) visit(p + 1);
+  if (p + size.width < size.area()) visit(p + size.width);
+}
+
 }  // namespace bladecurve

@@ -185,9 +185,9 @@ cv::Mat MergingLevels(const cv::Mat& walls, const cv::Mat& ground) {
   const float* height = walls.ptr<float>();
   for (int p = 0; p < pixels; ++p) {
     const int a = region_of[Index(basins.Of(p))];
-    ForNeighbours(walls.size(), p, [&](int q) {
+    ForLaterNeighbours(walls.size(), p, [&](int q) {
       const int b = region_of[Index(basins.Of(q))];
-      if (p < q && a != b) regions.AddBorder(a, b, {std::max(height[p], height[q]), 1});
+      if (a != b) regions.AddBorder(a, b, {std::max(height[p], height[q]), 1});
     });
   }
   regions.MergeAll();

@@ -3,11 +3,13 @@
 #include "vision/scene/scene_rungs.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <memory>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 #include "vision/scene/background.h"
 #include "vision/scene/flood.h"
@@ -41,21 +43,12 @@ std::vector<double> ThresholdsUpTo(const cv::Mat& distance) {
   return thresholds;
 }
 
-cv::Mat Smooth(const cv::Mat& distance) {
-  cv::Mat smooth(distance.size(), distance.type());
-  ParallelForBands(distance.rows, [&](int first, int last) {
-    cv::Mat band = smooth.rowRange(first, last);  // its neighbours count as well
-    cv::GaussianBlur(distance.rowRange(first, last), band, {}, 0.8);
-  });
-  return smooth;
-}
-
 // Threshold after threshold until they settle. How many are looked at together changes nothing.
 Rung ThresholdAll(const cv::Mat& distance,
                   const cv::Mat& hidden,
                   const Candidate& like,
                   const StoredHints& hints) {
-  const cv::Mat smooth = Smooth(distance);
+  const cv::Mat smooth = Smoothed(distance, 0.8);
   const std::vector<double> thresholds = ThresholdsUpTo(smooth);
   const int all = static_cast<int>(thresholds.size());
   Rung rung;
@@ -138,6 +131,14 @@ void AddLevels(const cv::Mat& levels,
   rung->distance = levels;
 }
 
+// As level(walls) gives them for each of the walls.
+template <typename Level>
+std::vector<cv::Mat> LevelsOf(const Outlines& outlines, const Level& level) {
+  return ParallelMap(static_cast<int>(outlines.closed.size()), [&](int i) {
+    return level(outlines.closed[static_cast<std::size_t>(i)].walls);
+  });
+}
+
 }  // namespace
 
 Rung GreyRung(const SceneView& view) {
@@ -169,8 +170,11 @@ Outlines OutlinesIn(const SceneView& view) {
   const ColourPictures& colour = outlines.colour;
   outlines.ground = GroundAtFrame(LabDistance(colour));
   const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
-  for (const int closed_px : {3, 5})
-    outlines.closed.push_back({closed_px, Walls(sharp_gradient, closed_px, colour.ignore)});
+  constexpr std::array kClosedPx{3, 5};
+  outlines.closed = ParallelMap(2, [&](int i) {
+    const int closed_px = kClosedPx[static_cast<std::size_t>(i)];
+    return Outlines::ClosedWalls{closed_px, Walls(sharp_gradient, closed_px, colour.ignore)};
+  });
   return outlines;
 }
 
@@ -179,11 +183,15 @@ Rung FloodRung(const SceneView& view, const Outlines& outlines) {
   const Candidate like{{}, colour.lab, {}, "flood"};
   Rung rung;
   rung.method = like.method;
-  for (const auto& [closed_px, walls] : outlines.closed) {
-    cv::Mat levels = FloodLevels(walls, outlines.ground);
-    if (!colour.ignore.empty()) levels.setTo(0, colour.ignore);
+  const std::vector<cv::Mat> levels = LevelsOf(outlines, [&](const cv::Mat& walls) {
+    cv::Mat flooded = FloodLevels(walls, outlines.ground);
+    if (!colour.ignore.empty()) flooded.setTo(0, colour.ignore);
+    return flooded;
+  });
+  for (std::size_t i = 0; i < levels.size(); ++i) {
     // Walls are thicker than what they enclose by half of what was closed, so that much may go.
-    AddLevels(levels, closed_px, like, view, colour.ignore, &rung);
+    const int speck_px = outlines.closed[i].closed_px;
+    AddLevels(levels[i], speck_px, like, view, colour.ignore, &rung);
   }
   return rung;
 }
@@ -197,8 +205,10 @@ Rung RegionRung(const SceneView& view, const Outlines& outlines) {
   like.outlined = true;
   Rung rung;
   rung.method = like.method;
-  for (const auto& [closed_px, walls] : outlines.closed)
-    AddLevels(MergingLevels(walls, ground), kSpeckPx, like, view, colour.ignore, &rung);
+  const std::vector<cv::Mat> levels =
+      LevelsOf(outlines, [&](const cv::Mat& walls) { return MergingLevels(walls, ground); });
+  for (const cv::Mat& merged : levels)
+    AddLevels(merged, kSpeckPx, like, view, colour.ignore, &rung);
   return rung;
 }
 

@@ -5,35 +5,35 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "vision/image/smoothed.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
 
 constexpr float kBinsPerOctave = 12, kLowestWall = 0.25F;  // of WallBins
 
-uchar BinOfWall(float wall) {
-  const float bin = kBinsPerOctave * std::log2(std::max(wall, kLowestWall) / kLowestWall);
-  return cv::saturate_cast<uchar>(std::min(std::lround(bin), static_cast<long>(kWallBins) - 1));
-}
-
 // Length of the gradient over all three channels at a smoothing of `sigma` px, Lab units per px.
 cv::Mat GradientLength(const cv::Mat& lab, double sigma) {
-  cv::Mat smooth;
-  cv::GaussianBlur(lab, smooth, {}, sigma);
-  cv::Mat x;
-  cv::Mat y;
-  cv::Scharr(smooth, x, CV_32F, 1, 0, 1.0 / 32);
-  cv::Scharr(smooth, y, CV_32F, 0, 1, 1.0 / 32);
+  const cv::Mat smooth = Smoothed(lab, sigma);
   cv::Mat length(lab.size(), CV_32FC1);
-  for (int row = 0; row < lab.rows; ++row) {
-    const cv::Vec3f* gx = x.ptr<cv::Vec3f>(row);
-    const cv::Vec3f* gy = y.ptr<cv::Vec3f>(row);
-    float* out = length.ptr<float>(row);
-    for (int col = 0; col < lab.cols; ++col)
-      out[col] = std::sqrt(gx[col].dot(gx[col]) + gy[col].dot(gy[col]));
-  }
+  ParallelForBands(lab.rows, [&](int first, int last) {
+    cv::Mat x;
+    cv::Mat y;
+    cv::Scharr(smooth.rowRange(first, last), x, CV_32F, 1, 0, 1.0 / 32);
+    cv::Scharr(smooth.rowRange(first, last), y, CV_32F, 0, 1, 1.0 / 32);
+    for (int row = first; row < last; ++row) {
+      const cv::Vec3f* gx = x.ptr<cv::Vec3f>(row - first);
+      const cv::Vec3f* gy = y.ptr<cv::Vec3f>(row - first);
+      float* out = length.ptr<float>(row);
+      for (int col = 0; col < lab.cols; ++col)
+        out[col] = std::sqrt(gx[col].dot(gx[col]) + gy[col].dot(gy[col]));
+    }
+  });
   return length;
 }
 
@@ -68,13 +68,12 @@ cv::Mat Walls(const cv::Mat& sharp_gradient, int closed_px, const cv::Mat& ignor
 }
 
 cv::Mat WallBins(const cv::Mat& walls) {
-  cv::Mat bins(walls.size(), CV_8UC1);
-  for (int row = 0; row < walls.rows; ++row) {
-    const float* wall = walls.ptr<float>(row);
-    uchar* bin = bins.ptr(row);
-    for (int col = 0; col < walls.cols; ++col) bin[col] = BinOfWall(wall[col]);
-  }
-  return bins;
+  cv::Mat logarithm;
+  cv::log(cv::max(walls, kLowestWall), logarithm);
+  cv::Mat bins;
+  logarithm.convertTo(
+      bins, CV_8U, kBinsPerOctave / std::numbers::ln2, -kBinsPerOctave * std::log2(kLowestWall));
+  return cv::min(bins, kWallBins - 1);
 }
 
 float WallOfBin(int bin) {

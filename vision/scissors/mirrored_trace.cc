@@ -14,6 +14,7 @@
 #include "vision/image/bilinear.h"
 #include "vision/image/blurred_step.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/parallel.h"
 #include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
@@ -265,12 +266,10 @@ std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
     const double half_rad = 0.5 * step * kStepPx / reach_px;
     return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
   };
-  std::vector<SeenTrace> traces;
-  for (int step = -farthest; step <= farthest; ++step) {
-    const Trace trace = MirroredEdge(other, turned(step));
-    traces.push_back(
-        {PartsSeen(view, trace, inner, other), LeavesEnd(trace, inner, difference_px)});
-  }
+  const std::vector<SeenTrace> traces = ParallelMap(2 * farthest + 1, [&](int step) {
+    const Trace trace = MirroredEdge(other, turned(step - farthest));
+    return SeenTrace{PartsSeen(view, trace, inner, other), LeavesEnd(trace, inner, difference_px)};
+  });
   BorderTest test(blur_px);
   for (const bool may_slope : {false, true}) {
     std::vector<Support> supports;
