@@ -9,6 +9,7 @@
 
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/parallel.h"
 #include "vision/refused.h"
 #include "vision/scene/scene_debug.h"
 #include "vision/scene/scene_rungs.h"
@@ -250,9 +251,10 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
                  grey_suffices ? "another thing lies beside the scissors"
                                : "grey did not separate the blades"),
           [&] {
-            looked->colour = SmallColour(view, kSmallSide);
-            return std::vector{ColourRung(view, *looked->colour),
-                               ShadowBlindRung(view, *looked->colour)};
+            const ColourPictures& colour = looked->colour.emplace(SmallColour(view, kSmallSide));
+            return ParallelMap(2, [&](int rung) {
+              return rung == 0 ? ColourRung(view, colour) : ShadowBlindRung(view, colour);
+            });
           });
   const LadderResult in_colour = Consider(by_colour, all);
   if (grey_suffices && !full) {
