@@ -59,6 +59,13 @@ std::vector<Look> Looks() {
   looks[5].scene.light.shadow = 0.7;
   looks[5].scene.light.shadow_blur_mm = 0.2;
   looks[5].scene.light.glint = 1.2;
+  for (Look hard : {Look{"rough wood", TwelveMegapixels(Backdrop::kWood)},
+                    Look{"folds, shadow", TwelveMegapixels(Backdrop::kCloth)}}) {
+    hard.scene.texture = 2;  // for which grey does not do
+    hard.scene.light.shadow = 0.8;
+    hard.scene.light.shadow_blur_mm = 0.5;
+    looks.push_back(hard);
+  }
   return looks;
 }
 
