@@ -49,6 +49,8 @@ struct JpegSettings {
   int channels = 1;
   int density = 0;  // dots per inch
   std::string exif;
+  cv::Size luma_per_chroma = {2, 2};  // of colour pictures
+  bool progressive = false;
 };
 
 // Every channel of a pixel gets the grey value.
@@ -66,6 +68,11 @@ std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
   info.in_color_space = settings.space;
   jpeg_set_defaults(&info);
   jpeg_set_quality(&info, 98, TRUE);
+  if (settings.channels == 3) {
+    info.comp_info[0].h_samp_factor = settings.luma_per_chroma.width;
+    info.comp_info[0].v_samp_factor = settings.luma_per_chroma.height;
+  }
+  if (settings.progressive) jpeg_simple_progression(&info);
   if (settings.density > 0) {
     info.density_unit = 1;
     info.X_density = info.Y_density = static_cast<UINT16>(settings.density);
@@ -327,10 +334,15 @@ TEST(Photo, DecodesAPartInColour) {
   const cv::Mat picture = Gradient(333, 250);
   const fs::path png = ProcessFolder() / "part.png";
   WritePng(png, picture);
-  const std::vector<fs::path> files = {
-      Write("part.jpg", Jpeg(picture, {JCS_YCbCr, 3, 0, ""})),
+  std::vector<fs::path> files = {
+      png,
       Write("mirrored_part.jpg", Jpeg(picture, {JCS_YCbCr, 3, 0, Exif(2, 0)})),
-      png};
+      Write("progressive_part.jpg", Jpeg(picture, {JCS_YCbCr, 3, 0, "", {2, 2}, true}))};
+  for (const cv::Size& sampling :
+       {cv::Size(1, 1), cv::Size(2, 1), cv::Size(1, 2), cv::Size(2, 2)}) {
+    files.push_back(Write("part" + std::to_string(files.size()) + ".jpg",
+                          Jpeg(picture, {JCS_YCbCr, 3, 0, "", sampling})));
+  }
   for (const fs::path& file : files) {
     const Photo photo = Photo::Load(file);
     const cv::Mat all = photo.DecodeColour(333);
