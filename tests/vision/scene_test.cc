@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -401,6 +402,25 @@ TEST(SeenIn, LooksForTheSharpEdgeBesideTheContour) {
   EXPECT_GT(quality(0.5), kAccepted);
   EXPECT_LT(quality(0.5), kPlain) << "it may be another line";
   EXPECT_LT(quality(8), kAccepted);
+}
+
+TEST(SceneLadder, LooksAtNothingTwiceAndSeesTheSame) {
+  const Photo photo = testing::Measured::PhotoOf(RenderScene(SmallScene()).bgr);
+  const std::vector<SeenMarker> no_markers;
+  const StoredHints no_hints;
+  StageLog log, other_log;
+  SceneLadder ladder(photo, no_markers, no_hints, &log);
+  EXPECT_GT(ladder.Climb(Plan::kAsNeeded).best.pair.quality, kAcceptedQuality);
+  const LadderResult full = ladder.Climb(Plan::kFull);
+  std::map<std::string, int> times_run;
+  for (const StageRecord& stage : log.records()) times_run[stage.stage] += stage.ran ? 1 : 0;
+  EXPECT_EQ(times_run.size(), 5U);
+  for (const auto& [stage, times] : times_run) EXPECT_EQ(times, 1) << stage;
+  const LadderResult at_once =
+      SceneLadder(photo, no_markers, no_hints, &other_log).Climb(Plan::kFull);
+  ASSERT_EQ(full.seen.size(), at_once.seen.size());
+  EXPECT_EQ(full.best.method, at_once.best.method);
+  EXPECT_EQ(full.best.pair.pivot, at_once.best.pair.pivot);
 }
 
 TEST(SceneFinder, RefusesClosedScissorsByThatReason) {
