@@ -17,23 +17,23 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestFile = 256u << 20u;  // rejects films and disk images
 
-[[noreturn]] void Complain(const fs::path& path, const std::string& what) {
+[[noreturn]] void ComplainOfFile(const fs::path& path, const std::string& what) {
   throw std::invalid_argument(path.string() + ": " + what);
 }
 
 std::string ReadBytes(const fs::path& path) {
   std::error_code error;
-  if (!fs::exists(path, error)) Complain(path, "there is no such file; check the name");
+  if (!fs::exists(path, error)) ComplainOfFile(path, "there is no such file; check the name");
   if (fs::is_directory(path, error)) {
-    Complain(path, "is a folder; name a .blade.json or a .so in it");
+    ComplainOfFile(path, "is a folder; name a .blade.json or a .so in it");
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (!error && size > kLargestFile) {
-    Complain(path, "is too large for a blade; name a .blade.json or a .so");
+    ComplainOfFile(path, "is too large for a blade; name a .blade.json or a .so");
   }
   std::ifstream file(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file) Complain(path, "cannot be read; check its permissions");
+  if (!file) ComplainOfFile(path, "cannot be read; check its permissions");
   return bytes;
 }
 
@@ -67,7 +67,7 @@ BladeFile ReadBladeFile(const fs::path& path) {
   try {
     return IsSharedLibrary(bytes) ? ReadPluginFile(path) : ParseBladeJson(bytes);
   } catch (const std::invalid_argument& error) {
-    Complain(path, error.what());
+    ComplainOfFile(path, error.what());
   }
 }
 

@@ -11,7 +11,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr std::size_t kFewestRows = 50;  // fewer cannot show contact, deformation and cutting
+constexpr std::size_t kFewestLogged = 50;  // fewer cannot show contact, deformation and cutting
 // Rejects rows out of order and scissors that open again, not the flicker of a coarse encoder.
 constexpr double kLargestReturn_rad = 0.5 * kRadPerDeg;
 constexpr std::size_t kFlatRows = 10;  // as many equal maxima are no coincidence of noise
@@ -114,10 +114,10 @@ std::vector<double> EvenedAngles(const std::vector<double>& time,
 ForceLog ForceLogOfTable(const NumberTable& table, double radius_mm) {
   ForceLog log{
       table.source, Column(table, "theta_deg"), TorqueColumn(table, radius_mm), table.lines};
-  if (log.lines.size() < kFewestRows) {
+  if (log.lines.size() < kFewestLogged) {
     throw LogRefused("too_short",
                      table.source + ": " + std::to_string(log.lines.size()) + " rows; at least " +
-                         std::to_string(kFewestRows) + " are needed");
+                         std::to_string(kFewestLogged) + " are needed");
   }
   std::vector<double> time(log.lines.size());
   std::iota(time.begin(), time.end(), 0.0);

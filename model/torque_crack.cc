@@ -11,7 +11,7 @@ namespace {
 
 // Moves along the edge must be small beside the waves of a blade's edge: else another contact is
 // met.
-constexpr double kLongestMove_mm = 2.0;
+constexpr double kLongestContactMove_mm = 2.0;
 constexpr int kMostNewtonSteps = 12;
 // Relative change of x at which Newton has converged: some rounding errors of phi.
 constexpr double kNewtonTolerance = 1e-13;
@@ -34,7 +34,7 @@ constexpr double kOffBlade_mm = 1e-3;
 // stride is too long.
 std::optional<CrackTip> TorqueStep::FollowEdge(const Waypoint& from, double next) noexcept {
   const double predicted_mm = from.tip.x_mm + TipSpeed(from.tip) * (next - from.s);
-  if (std::abs(predicted_mm - from.tip.x_mm) > kLongestMove_mm) return std::nullopt;
+  if (std::abs(predicted_mm - from.tip.x_mm) > kLongestContactMove_mm) return std::nullopt;
   double x_mm = predicted_mm;
   for (int i = 0; i < kMostNewtonSteps; ++i) {
     const CrackTip tip = TipAt(x_mm, next);
@@ -43,7 +43,7 @@ std::optional<CrackTip> TorqueStep::FollowEdge(const Waypoint& from, double next
     const double step_mm = -level.value / level.dx;
     if (std::abs(step_mm) <= kNewtonTolerance * x_mm) return tip;
     x_mm += step_mm;
-    if (std::abs(x_mm - predicted_mm) > kLongestMove_mm) return std::nullopt;
+    if (std::abs(x_mm - predicted_mm) > kLongestContactMove_mm) return std::nullopt;
   }
   return std::nullopt;
 }

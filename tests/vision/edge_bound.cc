@@ -9,13 +9,10 @@
 #include <cmath>
 
 #include "vision/edge_images.h"
+#include "vision/edge_unknowns.h"
 
 namespace bladecurve::testing {
 namespace {
-
-enum Unknown { kOffset, kAngle, kBlade, kGround, kBlur, kUnknowns };
-
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 // Pixels are laid out around (center, center).
 cv::Mat Model(const Unknowns& at, int side) {

@@ -7,13 +7,11 @@
 #include <cmath>
 #include <vector>
 
+#include "vision/edge_unknowns.h"
 #include "vision/image/blurred_step.h"
 
 namespace bladecurve::testing {
 namespace {
-
-enum Unknown { kOffset, kAngle, kBlade, kGround, kBlur, kUnknowns };
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 
 struct Pixel {
   double across, along, grey;
