@@ -119,6 +119,28 @@ TEST(ColourView, SaysWhenColourDoesNotHelp) {
   EXPECT_LT(view.separation, 1);
 }
 
+TEST(ColourView, OfAPartSeesTheSameWithinAndRefusesWhatLiesOutside) {
+  constexpr double kClose = 0.05;  // px
+  const Vector3d steel(120, 110, 100), drape(155, 105, 113);
+  Gaussian random(3);
+  const cv::Mat bgr =
+      Coloured(random, [&](double d) { return steel + Smooth(d) * (drape - steel); });
+  const ToneCurve linear = testing::GammaCurve(1);
+  const cv::Rect area(40, 6, 150, 190);
+  const PicturePart part(bgr(area), area.tl());
+  const EdgeGuess guess = GuessOff(2);
+  const LocatedEdge in_part = LocateEdgeInView(ViewWhereSidesDiffer(part, linear, guess), guess);
+  const LocatedEdge in_all = LocateEdgeInView(ViewWhereSidesDiffer(bgr, linear, guess), guess);
+  EXPECT_NEAR(MeanOffset(in_part), MeanOffset(in_all), kClose);
+
+  EdgeGuess outside = guess;
+  for (Vector2d& p : outside.path_px) p += Vector2d(1000, 0);
+  const ColourView nothing = ViewWhereSidesDiffer(part, linear, outside);
+  EXPECT_EQ(nothing.separation, 0);
+  EXPECT_THROW((void)LocateEdgeInView(nothing, outside), Refused);
+  EXPECT_THROW((void)LocateEdgeInHalvedView(nothing, outside), Refused);
+}
+
 // An edge at the border of a band that begins 9 px further in.
 LocatedEdge OutsideABand() {
   constexpr double kWide = 9;

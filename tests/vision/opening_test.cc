@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {

@@ -11,6 +11,7 @@
 #include "vision/edge/edge_path.h"
 #include "vision/edge/edge_survey.h"
 #include "vision/image/pixel_light.h"
+#include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
@@ -162,6 +163,8 @@ struct Reduction {
 };
 
 LocatedEdge LocateReduced(const ColourView& view, const EdgeGuess& guess, int factor) {
+  if (view.grey.empty())
+    throw Refused(Reason::kLowContrast, "edge: it would lie outside of what is seen in colour");
   const Reduction reduction{view.corner_px, factor};
   cv::Mat grey = view.grey;
   if (factor > 1) cv::resize(view.grey, grey, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);

@@ -171,7 +171,7 @@ Outlines OutlinesIn(const SceneView& view) {
   outlines.ground = GroundAtFrame(LabDistance(colour));
   const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
   constexpr std::array kClosedPx{3, 5};
-  outlines.closed = ParallelMap(2, [&](int i) {
+  outlines.closed = ParallelMap(static_cast<int>(kClosedPx.size()), [&](int i) {
     const int closed_px = kClosedPx[static_cast<std::size_t>(i)];
     return Outlines::ClosedWalls{closed_px, Walls(sharp_gradient, closed_px, colour.ignore)};
   });

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/dark_band.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {

@@ -8,8 +8,8 @@
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
-#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"
 #include "vision/scissors/shadowed_edge.h"
 

@@ -9,9 +9,9 @@
 
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
-#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"
 
 namespace bladecurve {
