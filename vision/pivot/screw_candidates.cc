@@ -28,10 +28,11 @@ struct Layer {
 };
 
 std::vector<Layer> ScoreAllCircles(const RimField& field, const cv::Rect& centers) {
+  std::vector<double> radii;
+  for (double r = kOctaveRadius; r < 2.05 * kOctaveRadius; r *= kRadiusRatio) radii.push_back(r);
+  const std::vector<cv::Mat> scores = field.ScoreCircles(centers, radii);
   std::vector<Layer> layers;
-  for (double r = kOctaveRadius; r < 2.05 * kOctaveRadius; r *= kRadiusRatio) {
-    layers.push_back({r, field.ScoreCircles(centers, r)});
-  }
+  for (std::size_t i = 0; i < radii.size(); ++i) layers.push_back({radii[i], scores[i]});
   return layers;
 }
 
@@ -132,7 +133,8 @@ std::vector<RimCandidate> WithoutRepeats(const std::vector<RimCandidate>& candid
 }  // namespace
 
 std::vector<RimCandidate> FindRimCandidates(const RimField& field, const OctaveSearch& search) {
-  const int reach = static_cast<int>(std::ceil(search.range)) + 1;
+  constexpr double kNeighbours = 2.5;  // px, of what lies within range and a pixel
+  const int reach = static_cast<int>(std::ceil(search.range + kNeighbours));
   const cv::Rect centers(static_cast<int>(std::lround(search.guess.x())) - reach,
                          static_cast<int>(std::lround(search.guess.y())) - reach,
                          2 * reach + 1,

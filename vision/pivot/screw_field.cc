@@ -70,7 +70,7 @@ float WeightFrom(std::vector<float>& absolute_sums, float least) {
 }
 
 // The largest circle whose rim is sought, over the typical one, and what rounding may add.
-constexpr double kLargestCircle = 1.5, kRoundingPx = 4;
+constexpr double kLargestCircle = 1.5, kRoundingPx = 6;
 
 cv::Rect WithinReach(const Eigen::Vector2d& center, double reach) {
   const int side = 2 * static_cast<int>(reach + kRoundingPx) + 1;
@@ -93,6 +93,15 @@ Value Interpolated(const std::vector<Value>& grid,
   const Value* lower = upper + size.width;
   return (1 - down) * ((1 - right) * upper[0] + right * upper[1]) +
          down * ((1 - right) * lower[0] + right * lower[1]);
+}
+
+// Columns of a row that lie in the largest disc within a rectangle.
+cv::Range RowOfDisc(int row, const cv::Size& size) {
+  const double radius = 0.5 * std::min(size.width, size.height);
+  const double below = row + 0.5 - 0.5 * size.height;
+  const double half = std::sqrt(std::max(0.0, radius * radius - below * below));
+  return {static_cast<int>(std::floor(0.5 * size.width - half)),
+          static_cast<int>(std::ceil(0.5 * size.width + half))};
 }
 
 cv::Mat Derivative(const cv::Mat& image, int dx, int dy) {
@@ -260,27 +269,49 @@ RimField::SectorRows RimField::RowsOf(std::size_t sector,
           line_[d + 1].ptr<float>(q.y) + q.x};
 }
 
-cv::Mat RimField::ScoreCircles(const cv::Rect& centers, double radius) const {
-  cv::Mat score = cv::Mat::zeros(centers.size(), CV_32F);
-  const CircleOffsets offsets = OffsetsOf(radius);
-  for (int row = 0; row < centers.height; ++row) {
-    float* out = score.ptr<float>(row);
-    const cv::Point start = cv::Point(centers.x, centers.y + row) - inner_.tl();
+void RimField::AddSector(std::size_t sector,
+                         const CircleOffsets& offsets,
+                         const cv::Point& start,
+                         int count,
+                         float* sums) const {
+  const SectorRows a = RowsOf(sector, offsets, start);
+  const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite
+  const float edge_weight = edge_weight_[sector], line_weight = line_weight_[sector];
+  for (int i = 0; i < count; ++i) {
+    const float edge = a.edge[i] + a.next_edge[i], line = a.line[i] + a.next_line[i];
+    const float far_edge = b.edge[i] + b.next_edge[i], far_line = b.line[i] + b.next_line[i];
+    sums[i] += SectorScores(edge * edge * edge_weight + line * line * line_weight,
+                            far_edge * far_edge * edge_weight + far_line * far_line * line_weight);
+  }
+}
+
+std::vector<cv::Mat> RimField::ScoreCircles(const cv::Rect& centers,
+                                            const std::vector<double>& radii) const {
+  constexpr int kRowsAtOnce = 16;  // what one sector of these looks at stays in the cache
+  std::vector<CircleOffsets> offsets;
+  std::vector<cv::Mat> scores;
+  for (const double radius : radii) {
+    offsets.push_back(OffsetsOf(radius));
+    scores.push_back(cv::Mat::zeros(centers.size(), CV_32F));
+  }
+  for (int first = 0; first < centers.height; first += kRowsAtOnce) {
+    const int last = std::min(first + kRowsAtOnce, centers.height);
     for (std::size_t sector = 0; sector < kSectors / 2; ++sector) {
-      const SectorRows a = RowsOf(sector, offsets, start);
-      const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite
-      const float edge_weight = edge_weight_[sector], line_weight = line_weight_[sector];
-      for (int i = 0; i < centers.width; ++i) {
-        const float edge = a.edge[i] + a.next_edge[i], line = a.line[i] + a.next_line[i];
-        const float far_edge = b.edge[i] + b.next_edge[i], far_line = b.line[i] + b.next_line[i];
-        out[i] +=
-            SectorScores(edge * edge * edge_weight + line * line * line_weight,
-                         far_edge * far_edge * edge_weight + far_line * far_line * line_weight);
+      for (std::size_t k = 0; k < radii.size(); ++k) {
+        for (int row = first; row < last; ++row) {
+          const cv::Range within = RowOfDisc(row, centers.size());
+          const cv::Point start(centers.x + within.start, centers.y + row);
+          AddSector(sector,
+                    offsets[k],
+                    start - inner_.tl(),
+                    within.size(),
+                    scores[k].ptr<float>(row) + within.start);
+        }
       }
     }
-    for (int i = 0; i < centers.width; ++i) out[i] /= kSectors;
   }
-  return score;
+  for (cv::Mat& score : scores) score *= 1.0 / kSectors;
+  return scores;
 }
 
 }  // namespace bladecurve

@@ -49,8 +49,11 @@ class RimField {
   // The same less what goes on straight along the tangents: of a rim nothing does, of the edges of
   // a shank that happen to touch the ellipse all.
   [[nodiscard]] double ScoreWithoutTangents(const RimEllipse& rim) const;
-  // The same for circles centred on the pixels of `centers`, as CV_32F; whole-pixel accuracy.
-  [[nodiscard]] cv::Mat ScoreCircles(const cv::Rect& centers, double radius) const;
+  // The same for circles centred on the pixels of `centers` that lie in the largest disc there is
+  // room for, as CV_32F, 0 elsewhere; whole-pixel accuracy.
+  // One picture for each radius.
+  [[nodiscard]] std::vector<cv::Mat> ScoreCircles(const cv::Rect& centers,
+                                                  const std::vector<double>& radii) const;
 
  private:
   static constexpr int kDirections = kSamples / 2;  // opposite samples share theirs
@@ -68,6 +71,12 @@ class RimField {
   [[nodiscard]] SectorRows RowsOf(std::size_t sector,
                                   const CircleOffsets& offsets,
                                   const cv::Point& start) const;
+  // Adds the scores of a sector and the opposite one, for centres along a row.
+  void AddSector(std::size_t sector,
+                 const CircleOffsets& offsets,
+                 const cv::Point& start,
+                 int count,
+                 float* sums) const;
   // Responses with every place moved along its tangent by that share of the mean radius.
   [[nodiscard]] SectorResponses ResponsesAside(const RimEllipse& rim, double share) const;
 
