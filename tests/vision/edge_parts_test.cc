@@ -19,6 +19,7 @@
 #include "vision/edge/edge_path.h"
 #include "vision/edge_images.h"
 #include "vision/image/blurred_step.h"
+#include "vision/image/robust_statistics.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -184,6 +185,36 @@ TEST(ChooseTransition, ChangesToNoOtherLinePartOfTheWay) {
     for (const Vector2d& point : ChooseTransition(picture, guess, kSearchPx).points)
       far += std::abs(point.y() - (kBorder - 0.5)) > kClosePx;
     EXPECT_EQ(far, 0) << share;
+  }
+}
+
+// Of a brushed blade above a straight border: light rises at two streaks along it and falls at the
+// border, from a share of the length on no more.
+cv::Mat BrushedAlong(int border, double share) {
+  constexpr int kLong = 600, kHigh = 240, kFirst = 20, kSecond = 12;  // px from the border
+  const cv::Scalar plane(100), streak(145), bright(160), ground(100);
+  cv::Mat picture(kHigh, kLong, CV_8UC1, bright);
+  picture.rowRange(0, border - kSecond) = streak;
+  picture.rowRange(0, border - kFirst) = plane;
+  picture(cv::Range(border, kHigh), cv::Range(0, static_cast<int>(share * kLong))) = ground;
+  cv::GaussianBlur(picture, picture, {}, 0.7);
+  cv::Mat noise(picture.size(), CV_16SC1);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 2);
+  cv::add(picture, noise, picture, cv::noArray(), CV_8UC1);
+  return picture;
+}
+
+TEST(ChooseTransition, TakesNoStreakForTheBorderBecauseItLiesOutsideOfAnother) {
+  constexpr int kBorder = 150;
+  constexpr double kMargin = 20, kSearchPx = 30, kClosePx = 1.5;
+  for (const double share : {0.75, 0.8, 0.85}) {
+    const cv::Mat picture = BrushedAlong(kBorder, share);
+    const EdgePath guess =
+        SmoothPath({{kMargin, kBorder}, {picture.cols - kMargin, kBorder}}, true, 3);
+    std::vector<double> off;
+    for (const Vector2d& point : ChooseTransition(picture, guess, kSearchPx).points)
+      off.push_back(std::abs(point.y() - (kBorder - 0.5)));
+    EXPECT_LT(Median(off), kClosePx) << share;
   }
 }
 

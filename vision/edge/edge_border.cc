@@ -101,6 +101,14 @@ double WidestBevel(const Survey& survey) {
   return kLeast + kPerLength * LengthOf(survey.path);
 }
 
+// How clear a line is by itself, on average, wherever it lies.
+double MeanClearness(const StepMap& map, const StepLine& line) {
+  double sum = 0;
+  for (int station = 0; station < map.stations; ++station)
+    sum += map.clear[map.At(station, line.rows[Index(station)])];
+  return sum / map.stations;
+}
+
 // The next line further out, where it is about as clear and as high: what lies outside a silhouette
 // is not. Where light falls at both, the outer one is no shadow's border, at which it rises: half
 // as high is enough, and the guess may have lain on a bevel's inner line, farther off than it may
@@ -126,7 +134,9 @@ StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch
                             return survey.map.clear[survey.map.At(station, row)];
                           }),
                    search.bend);
-  const bool clear = outer.score > kAsClear * line.score;
+  // What spoke for the line as the outermost one does not count here.
+  const double line_score = std::min(line.score, MeanClearness(survey.map, line));
+  const bool clear = outer.score > kAsClear * line_score;
   const double outer_height = HeightUnder(survey.map, outer);
   const double as_high = falls_too(outer_height) ? kAsHighFalling : kAsHigh;
   return clear && std::abs(outer_height) > as_high * std::abs(height) ? outer : line;
