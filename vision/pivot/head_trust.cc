@@ -84,8 +84,9 @@ bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
 
 bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
   if (screw.evidence > kUnmistakable || MirrorNear(screw, known)) return true;
-  const bool at_place = screw.evidence > kFaint && LiesWhereBladesTurn(screw, known);
-  return at_place && MayMirrorAbout(screw, known);
+  if (screw.evidence <= kFaint || !MayMirrorAbout(screw, known)) return false;
+  const bool slotted = screw.slot && screw.slot->ends_seen;
+  return LiesWhereBladesTurn(screw, known) || (slotted && OddsAtPlace(screw, known) > kLeastOdds);
 }
 
 }  // namespace bladecurve

@@ -31,7 +31,8 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // the view is known.
 [[nodiscard]] bool IsSureAtJoint(const Screw& screw, const HeadSearch& known);
 
-// The same of one that is wider or smaller than usual.
+// The same of one that is wider or smaller than usual: where the blades put the pivot, or with a
+// slot from end to end not far from there.
 [[nodiscard]] bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known);
 
 }  // namespace bladecurve
