@@ -123,13 +123,12 @@ bool IsVague(double theta_sigma_rad) {
 ScaleResult FindScaleInView(const Photo& photo, const ScaleOptions& options, StageLog* log) {
   try {
     ScaleResult scale = FindScale(photo, options);
-    if (log->wants_pictures()) log->Picture("scale", DrawMarkers(photo.grey(), scale.markers));
+    log->Picture("scale", [&] { return DrawMarkers(photo.grey(), scale.markers); });
     return scale;
   } catch (const Refused&) {
-    if (log->wants_pictures()) {
-      const std::vector<SeenMarker> markers = FindMarkers(photo.grey(), SrgbToneCurve());
-      log->Picture("scale", DrawMarkers(photo.grey(), markers));
-    }
+    log->Picture("scale", [&] {
+      return DrawMarkers(photo.grey(), FindMarkers(photo.grey(), SrgbToneCurve()));
+    });
     throw;
   }
 }

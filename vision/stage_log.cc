@@ -51,11 +51,14 @@ void StageLog::Skipped(const std::string& stage, const std::string& why) {
   records_.push_back({stage, false, why, 0});
 }
 
-void StageLog::Picture(const std::string& name, const cv::Mat& picture) {
+void StageLog::Picture(const std::string& name, const std::function<cv::Mat()>& draw) {
   if (!debug_dir_) return;
+  const Clock::time_point begin = Clock::now();
   const std::string number = std::to_string(100 + ++pictures_).substr(1);  // two digits: they sort
-  WritePng(*debug_dir_ / (number + "_" + name + ".png"), picture);
-  last_ = Clock::now();  // drawing is not part of the next stage
+  WritePng(*debug_dir_ / (number + "_" + name + ".png"), draw());
+  const Clock::duration drawing = Clock::now() - begin;
+  start_ += drawing;
+  last_ += drawing;
 }
 
 double StageLog::total_ms() const {

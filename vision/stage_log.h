@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
@@ -35,9 +36,8 @@ class StageLog {
            const std::string& why);  // the time since the last record is its time
   void Skipped(const std::string& stage, const std::string& why);
 
-  [[nodiscard]] bool wants_pictures() const { return debug_dir_.has_value(); }
-  // Writes DIR/NN_name.png.
-  void Picture(const std::string& name, const cv::Mat& picture);
+  // If pictures are asked for, writes what `draw` makes to DIR/NN_name.png; no stage's time.
+  void Picture(const std::string& name, const std::function<cv::Mat()>& draw);
 
   [[nodiscard]] const std::vector<StageRecord>& records() const { return records_; }
   [[nodiscard]] double total_ms() const;

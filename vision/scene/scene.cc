@@ -245,7 +245,7 @@ Scene SceneFinder::Likeliest() const {
   }
   if (scene.IsDoubtful()) scene.warnings.push_back("scene_doubtful");
   log_->Ran("trace", "edges followed on the small picture");
-  if (log_->wants_pictures()) log_->Picture("scene", DrawScene(Shown().best, scene));
+  log_->Picture("scene", [&] { return DrawScene(Shown().best, scene); });
   return scene;
 }
 

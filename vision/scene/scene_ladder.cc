@@ -215,9 +215,8 @@ const std::vector<Rung>& SceneLadder::See(const std::string& stage,
     return before->second;
   }
   const std::vector<Rung>& seen = looked->stages.emplace(stage, look()).first->second;
-  if (log_->wants_pictures()) {
-    for (const Rung& rung : seen) log_->Picture("rung-" + rung.method, DrawRung(rung));
-  }
+  for (const Rung& rung : seen)
+    log_->Picture("rung-" + rung.method, [&] { return DrawRung(rung); });
   log_->Ran(stage, why);
   return seen;
 }

@@ -26,10 +26,8 @@ namespace {
 
 Blades LocateAndTrim(const BladeView& view, StageLog* log) {
   BladeEdges edges = LocateBlades(view, log->plan());
-  if (log->wants_pictures()) {
-    log->Picture("edge-upper", DrawEdge(view.grey(), edges.upper));
-    log->Picture("edge-lower", DrawEdge(view.grey(), edges.lower));
-  }
+  log->Picture("edge-upper", [&] { return DrawEdge(view.grey(), edges.upper); });
+  log->Picture("edge-lower", [&] { return DrawEdge(view.grey(), edges.lower); });
   Blades blades{{true, std::move(edges.upper), {}, {}, {}},
                 {false, std::move(edges.lower), {}, {}, {}},
                 false};
@@ -63,7 +61,7 @@ Pivot LocatePivot(const BladeView& view,
   const PivotSearch search{
       view.scene(), PairOf(parts.blades.upper, parts.blades.lower), hints.pivot_px, parts.at_joint};
   Pivot pivot = FindPivot(view.grey(), view.scale(), search);
-  if (log->wants_pictures()) log->Picture("pivot", DrawPivot(view.grey(), view.scene(), pivot));
+  log->Picture("pivot", [&] { return DrawPivot(view.grey(), view.scene(), pivot); });
   log->Ran("pivot", pivot.source);
   return pivot;
 }
