@@ -49,6 +49,9 @@ constexpr std::array kDoubts = {
           "another line beside the lower edge may be the edge: a bevel, a shadow, a reflection"},
     Doubt{"upper_edge_vague",
           "the upper edge is known to more than a pixel only; use softer light"},
+    Doubt{
+        "upper_edge_overexposed",
+        "the blade is plain white along its upper edge, which seems further out then; expose less"},
     Doubt{"theta_vague",
           "the angle is known to more than a quarter of a degree only; let the pivot and both tips "
           "show clearly, and markers the tilt of the view"},

@@ -14,6 +14,14 @@ bool IsAmbiguous(const LocatedEdge& edge) {
   return edge.ambiguity > kSeveralTransitions || LongestStray(edge) > kOtherLine;
 }
 
+// How far a blade is beyond white nobody knows; the further, the further out its edge seems to lie.
+bool IsOverexposed(const LocatedBlade& blade) {
+  constexpr double kShare = 0.3;     // of the edge
+  constexpr double kKnownPx = 0.25;  // as where the other edge tells how sharp this one is
+  const bool glares = blade.edge.overexposed > kShare && TypicalContrast(blade.edge) < 0;
+  return glares && EdgeSigmaPx(blade) > kKnownPx;
+}
+
 }  // namespace
 
 std::vector<std::string> WarningsOf(const Scene& scene,
@@ -38,6 +46,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   warn_if(IsAmbiguous(blades.upper.edge), "upper_edge_ambiguous");
   warn_if(IsAmbiguous(blades.lower.edge), "lower_edge_ambiguous");
   warn_if(EdgeSigmaPx(blades.upper) > kVaguePx, "upper_edge_vague");
+  warn_if(IsOverexposed(blades.upper), "upper_edge_overexposed");
   return warnings;
 }
 

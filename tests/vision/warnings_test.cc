@@ -54,6 +54,25 @@ TEST(WarningsOf, DoubtsAnUpperEdgeThatIsKnownToMoreThanAPixelOnly) {
   EXPECT_TRUE(Warns(measured, "upper_edge_vague"));
 }
 
+TEST(WarningsOf, DoubtsAnUpperEdgeBesideABladeThatIsPlainWhite) {
+  Measured measured{SceneWithMarkers()};
+  LocatedEdge& edge = measured.blades.upper.edge;
+  const auto set_contrast = [&](double contrast) {
+    for (LocatedEdgePoint& point : edge.points) point.contrast = contrast;
+  };
+  for (LocatedEdgePoint& point : measured.blades.upper.used) point.sigma_px = 0.05;
+  edge.common_sigma_px = 0.4;
+  set_contrast(-0.8);
+  EXPECT_FALSE(Warns(measured, "upper_edge_overexposed"));
+  edge.overexposed = 0.5;
+  EXPECT_TRUE(Warns(measured, "upper_edge_overexposed"));
+  set_contrast(0.8);
+  EXPECT_FALSE(Warns(measured, "upper_edge_overexposed")) << "on a light table the ground is white";
+  set_contrast(-0.8);
+  edge.common_sigma_px = 0.1;
+  EXPECT_FALSE(Warns(measured, "upper_edge_overexposed")) << "the other edge tells the blur";
+}
+
 TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
   Measured measured{SceneWithMarkers()};
   measured.blades.upper.edge.ambiguity = measured.blades.lower.edge.ambiguity = 0.4;
