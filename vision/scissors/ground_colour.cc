@@ -14,6 +14,8 @@
 namespace bladecurve {
 namespace {
 
+constexpr double kFarPx = 1.3;  // what colours tell apart
+
 // From a line at which only light changes to the one at which the ground's colour ends; where that
 // line draws the edge back to itself, in colours that show shadows less.
 void LeaveLightAlone(const BladeView& view,
@@ -21,7 +23,7 @@ void LeaveLightAlone(const BladeView& view,
                      const LocatedEdge& other,
                      bool left,
                      LocatedEdge* edge) {
-  constexpr double kFarPx = 1.3, kSearchPx = 4;
+  constexpr double kSearchPx = 4;
   constexpr double kWay = 0.5;    // of the way there, at least
   constexpr double kShade = 0.5;  // of the light
   const double width_px = BladeOf(view.scene(), left).width_px;
@@ -81,6 +83,16 @@ void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges) {
       LeaveLightAlone(view, colours, found.upper, false, &edges->lower);
     }
   });
+}
+
+bool LiesInGround(const BladeView& view,
+                  const LocatedEdge& edge,
+                  const LocatedEdge& other,
+                  bool left) {
+  if (TypicalContrast(edge) <= 0 || !view.ShowsColourAtTop()) return false;
+  const auto border = FindColourBorder(
+      view.Reduced(), view.tone(), edge, other, BladeOf(view.scene(), left).width_px);
+  return border && border->offset_px <= -kFarPx;
 }
 
 }  // namespace bladecurve

@@ -14,4 +14,11 @@ namespace bladecurve {
 // is full.
 void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges);
 
+// Whether the ground's colour, where it has one, goes on within an edge at which light rises, as it
+// does within a shadow's border. other: the other blade's edge.
+[[nodiscard]] bool LiesInGround(const BladeView& view,
+                                const LocatedEdge& edge,
+                                const LocatedEdge& other,
+                                bool left);
+
 }  // namespace bladecurve

@@ -11,6 +11,7 @@
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
@@ -82,8 +83,13 @@ RelocatedBlade BladeWithEdge(const MirroredBladeSearch& search, LocatedEdge edge
 
 std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search,
                                                double search_px) {
-  return IfItFacesGap(search,
-                      [&] { return search.view.InGreyOrColours(GuessWithin(search, search_px)); });
+  auto found = IfItFacesGap(
+      search, [&] { return search.view.InGreyOrColours(GuessWithin(search, search_px)); });
+  const bool shadows = found && LiesInGround(search.view,
+                                             found->blade.edge,
+                                             search.other.edge,
+                                             found->blade.on_left);
+  return shadows ? std::nullopt : std::move(found);
 }
 
 std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,

@@ -34,7 +34,8 @@ struct MirroredBladeSearch {
 // The blade with that edge, trimmed. Throws Refused where too little of it is free.
 [[nodiscard]] RelocatedBlade BladeWithEdge(const MirroredBladeSearch& search, LocatedEdge edge);
 
-// The blade as it is seen within `search_px` of the mirror image, if it faces the gap there.
+// The blade as it is seen within `search_px` of the mirror image, if it faces the gap there and is
+// no shadow on coloured ground.
 [[nodiscard]] std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search,
                                                              double search_px);
 
