@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "measured_blades.h"
 #include "vision/pivot/head_search.h"
 
 namespace bladecurve {
@@ -47,6 +48,27 @@ bool IsSure(bool slotted, double sigmas_off) {
   const EdgePair edges = UnlikeEdges();
   const HeadSearch known{cv::Mat(), scale, scene, edges, by_geometry, std::nullopt};
   return IsSureOfUnusualSize(screw, known);
+}
+
+// Whether blades of which one was taken for too far aside mirror each other about a head that is
+// known to a few px only.
+bool MirrorNearFaintHead(double aside_px) {
+  constexpr double kSigmaPx = 5;
+  testing::Measured measured{testing::SceneWithMarkers()};
+  measured.Misplace(&measured.blades.upper, aside_px);
+  Screw screw{};
+  screw.center_px = measured.truth.screw_px;
+  screw.covariance_px2 = kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity();
+  screw.semi_major_px = screw.semi_minor_px = 10;
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  return MirrorNear(
+      screw, {measured.photo.grey(), measured.scale, measured.scene, edges, {}, std::nullopt});
+}
+
+TEST(MirrorNear, ThatTheHeadMayLieAsideExcusesNoEdgesThatAreUnlike) {
+  EXPECT_TRUE(MirrorNearFaintHead(0));
+  EXPECT_TRUE(MirrorNearFaintHead(3)) << "suspect, no more";
+  EXPECT_FALSE(MirrorNearFaintHead(6));
 }
 
 TEST(IsSureOfUnusualSize, TakesItWhereTheBladesPutThePivot) {
