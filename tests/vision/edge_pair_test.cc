@@ -15,6 +15,8 @@
 
 #include "measured_blades.h"
 #include "vision/edge_images.h"
+#include "vision/scissors/ground_colour.h"
+#include "vision/scissors/scene_guess.h"
 
 namespace bladecurve {
 namespace {
@@ -89,6 +91,36 @@ TEST(LocateBlades, TakesTheColoursWhereShadowsHideTheEdgesInGrey) {
   constexpr double kClosePx = 0.3;
   for (const double shadow : {0.78, 0.8}) {
     const SceneSpec spec = BlackBladesInSunOnDrape(shadow);
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
+  }
+}
+
+TEST(LiesInGround, IsTrueOfAShadowsBorderOnColouredGroundAlone) {
+  constexpr double kFarPx = 3;
+  const SceneSpec spec = BlackBladesInSunOnDrape(0.78);
+  const Seen seen(spec);
+  const BladeView view(seen.photo, seen.scale, seen.scene);
+  const auto in_grey = view.InGrey(CuttingEdgeOf(seen.scene, true));
+  ASSERT_TRUE(in_grey);
+  ASSERT_GT(FarFrom(TruthOf(spec).upper, in_grey->points), kFarPx);
+  const BladeEdges edges = LocateBlades(view);
+  EXPECT_TRUE(LiesInGround(view, *in_grey, edges.lower, true));
+  EXPECT_FALSE(LiesInGround(view, edges.upper, edges.lower, true));
+}
+
+// Steel on paper of a warmer white: the shadows are as dark as the blades, and nearly of their
+// colour.
+TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
+  constexpr double kClosePx = 0.3;
+  for (const double shadow : {0.5, 0.7}) {
+    SceneSpec spec = SceneWithShadowsInTheGap(35 * kDegree);
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = {0.68, 0.66, 0.6};
+    spec.texture = 0;
+    spec.light.shadow = shadow;
     const BladeEdges edges = Seen(spec).Locate();
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;

@@ -21,8 +21,6 @@ using Eigen::Vector3d;
 // An edge is looked at in so many stretches, each averaged along its length.
 constexpr int kStretches = 12;
 
-constexpr double kToldApart = 0.2;  // chromas nearer than that are not
-
 struct Stretch {
   std::size_t first, last;  // points of the edge, `last` excluded
 };
@@ -101,7 +99,9 @@ bool LiesInShadow(const Profile& profile, double border) {
 }
 
 // widest_bevel: rows; what mirrors the ground is no wider.
-std::optional<Transition> TransitionIn(const Profile& profile, double widest_bevel) {
+std::optional<Transition> TransitionIn(const Profile& profile,
+                                       double widest_bevel,
+                                       double told_apart) {
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
   constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
   constexpr double kStillBlade = 0.4, kStillBevel = 0.2;  // which mirrors some of the ground
@@ -112,7 +112,7 @@ std::optional<Transition> TransitionIn(const Profile& profile, double widest_bev
   const Vector3d ground = profile.Mean(static_cast<int>(kAlone * outer), outer);
   const Vector3d blade = profile.Mean(inner, blade_from);
   const Chroma of_ground = ChromaOf(ground), way = ChromaOf(blade) - of_ground;
-  if (way.norm() < kToldApart) return std::nullopt;
+  if (way.norm() < told_apart) return std::nullopt;
   const auto share = [&](int v) {
     return (ChromaOf(profile.At(v)) - of_ground).dot(way) / way.squaredNorm();
   };
@@ -147,6 +147,7 @@ struct EdgeInColours {
   const ToneCurve& tone;
   const LocatedEdge& edge;
   double blade_px;  // of the photograph
+  double told_apart;
 
   // std::nullopt where much of it is out of the picture.
   [[nodiscard]] std::optional<Profile> ProfileAcross(const Stretch& stretch,
@@ -175,7 +176,8 @@ struct EdgeInColours {
                                                          int outer) const {
     constexpr double kWidestBevel = 0.3;  // of the blade's width
     const auto profile = ProfileAcross(stretch, inner, outer);
-    return profile ? TransitionIn(*profile, kWidestBevel * blade_px / colours.px) : std::nullopt;
+    return profile ? TransitionIn(*profile, kWidestBevel * blade_px / colours.px, told_apart)
+                   : std::nullopt;
   }
 
   // As wide outside as within, where there is room.
@@ -262,11 +264,12 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              const ToneCurve& tone,
                                              const LocatedEdge& edge,
                                              const LocatedEdge& other,
-                                             double blade_px) {
+                                             double blade_px,
+                                             double told_apart) {
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
-  const EdgeInColours seen{colours, tone, edge, blade_px};
+  const EdgeInColours seen{colours, tone, edge, blade_px, told_apart};
   std::vector<StretchOffset> offsets;
   std::vector<double> certain;  // from the crotch on
   std::vector<Vector2d> border;

@@ -37,13 +37,17 @@ struct ColourBorder {
 // Whether some part of a picture is coloured enough to be told from grey steel.
 [[nodiscard]] bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone);
 
-// std::nullopt where blade and ground are alike in colour, or the blade mirrors the ground: colours
+// Chromas that differ by less may be one in another light.
+inline constexpr double kToldApart = 0.2;
+
+// std::nullopt where blade and ground are alike in colour, to `told_apart`, or the blade mirrors the ground: colours
 // go over into each other slowly, or the ground's goes on within the edge without a shadow. other:
 // the other blade's edge; blade_px: how wide the blade is.
 [[nodiscard]] std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                                            const ToneCurve& tone,
                                                            const LocatedEdge& edge,
                                                            const LocatedEdge& other,
-                                                           double blade_px);
+                                                           double blade_px,
+                                                           double told_apart = kToldApart);
 
 }  // namespace bladecurve

@@ -17,7 +17,8 @@ namespace {
 constexpr double kFarPx = 1.3;  // what colours tell apart
 
 // From a line at which only light changes to the one at which the ground's colour ends; where that
-// line draws the edge back to itself, in colours that show shadows less.
+// line draws the edge back to itself, in colours that show shadows less. Of a line that may be a
+// shadow's border, at which light rises, colours tell that hardly differ.
 void LeaveLightAlone(const BladeView& view,
                      const ReducedColours& colours,
                      const LocatedEdge& other,
@@ -26,14 +27,20 @@ void LeaveLightAlone(const BladeView& view,
   constexpr double kSearchPx = 4;
   constexpr double kWay = 0.5;    // of the way there, at least
   constexpr double kShade = 0.5;  // of the light
+  constexpr double kHardlyApart = 0.05;
   const double width_px = BladeOf(view.scene(), left).width_px;
+  double told_apart = kToldApart;
   const auto border_along = [&](const LocatedEdge& line) {
-    return FindColourBorder(colours, view.tone(), line, other, width_px);
+    return FindColourBorder(colours, view.tone(), line, other, width_px, told_apart);
   };
   const auto is_far = [](const auto& border) {
     return border && std::abs(border->offset_px) >= kFarPx;
   };
-  const auto border = border_along(*edge);
+  auto border = border_along(*edge);
+  if (!border && TypicalContrast(*edge) > 0) {
+    told_apart = kHardlyApart;
+    border = border_along(*edge);
+  }
   if (!is_far(border)) return;
   const EdgeGuess guess{border->path_px, left, kSearchPx};
   const auto is_border = [&](const std::optional<LocatedEdge>& again) {
@@ -69,7 +76,7 @@ bool ShadowsMightPass(const BladeView& view, const BladeEdges& edges) {
 }  // namespace
 
 void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges) {
-  constexpr double kLarge = 3e6;  // px
+  constexpr double kLarge = 6e6;  // px
   const bool costly = static_cast<double>(view.grey().total()) > kLarge;
   if (plan == Plan::kAsNeeded && costly && !LeavesDoubt(edges->upper) &&
       !LeavesDoubt(edges->lower) && !ShadowsMightPass(view, *edges))
