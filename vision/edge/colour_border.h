@@ -40,9 +40,9 @@ struct ColourBorder {
 // Chromas that differ by less may be one in another light.
 inline constexpr double kToldApart = 0.2;
 
-// std::nullopt where blade and ground are alike in colour, to `told_apart`, or the blade mirrors the ground: colours
-// go over into each other slowly, or the ground's goes on within the edge without a shadow. other:
-// the other blade's edge; blade_px: how wide the blade is.
+// std::nullopt where blade and ground are alike in colour, to `told_apart`, or the blade mirrors
+// the ground: colours go over into each other slowly, or the ground's goes on within the edge
+// without a shadow. other: the other blade's edge; blade_px: how wide the blade is.
 [[nodiscard]] std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                                            const ToneCurve& tone,
                                                            const LocatedEdge& edge,
