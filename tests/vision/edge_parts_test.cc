@@ -159,6 +159,15 @@ int Count(const cv::Mat& bgr, const cv::Vec3b& colour) {
   return cv::countNonZero(same);
 }
 
+// With a lens's blur and noise.
+cv::Mat Photographed(const cv::Mat& picture) {
+  cv::Mat photographed, noise(picture.size(), CV_16SC1);
+  cv::GaussianBlur(picture, photographed, {}, 0.7);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 2);
+  cv::add(photographed, noise, photographed, cv::noArray(), CV_8UC1);
+  return photographed;
+}
+
 // Of a picture of a blade above a straight border, whose ground is as dark as the bevel from a
 // share of the length on: there the line at which the bevel begins is seen alone.
 cv::Mat DarkeningGround(int border, int bevel_line, double share) {
@@ -167,11 +176,7 @@ cv::Mat DarkeningGround(int border, int bevel_line, double share) {
   cv::Mat picture(kHigh, kLong, CV_8UC1, bevel);
   picture(cv::Range(0, bevel_line), cv::Range(kBevelFrom, kLong)) = plane;
   picture(cv::Range(border, kHigh), cv::Range(0, static_cast<int>(share * kLong))) = ground;
-  cv::GaussianBlur(picture, picture, {}, 0.7);
-  cv::Mat noise(picture.size(), CV_16SC1);
-  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 2);
-  cv::add(picture, noise, picture, cv::noArray(), CV_8UC1);
-  return picture;
+  return Photographed(picture);
 }
 
 TEST(ChooseTransition, ChangesToNoOtherLinePartOfTheWay) {
@@ -197,11 +202,7 @@ cv::Mat BrushedAlong(int border, double share) {
   picture.rowRange(0, border - kSecond) = streak;
   picture.rowRange(0, border - kFirst) = plane;
   picture(cv::Range(border, kHigh), cv::Range(0, static_cast<int>(share * kLong))) = ground;
-  cv::GaussianBlur(picture, picture, {}, 0.7);
-  cv::Mat noise(picture.size(), CV_16SC1);
-  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, 2);
-  cv::add(picture, noise, picture, cv::noArray(), CV_8UC1);
-  return picture;
+  return Photographed(picture);
 }
 
 TEST(ChooseTransition, TakesNoStreakForTheBorderBecauseItLiesOutsideOfAnother) {
