@@ -17,9 +17,9 @@ namespace {
 constexpr double kFarPx = 1.3;  // what colours tell apart
 
 // From a line at which only light changes to the one at which the ground's colour ends; where that
-// line draws the edge back to itself, in colours that show shadows less. From what may be a shadow's
-// border, at which light rises, also to where colours hardly differ, if the edge is seen there; that
-// it is not raises no doubt then.
+// line draws the edge back to itself, in colours that show shadows less. From what may be a
+// shadow's border, at which light rises, also to where colours hardly differ, if the edge is seen
+// there; that it is not raises no doubt then.
 void LeaveLightAlone(const BladeView& view,
                      const ReducedColours& colours,
                      const LocatedEdge& other,
