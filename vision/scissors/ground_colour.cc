@@ -41,6 +41,7 @@ void LeaveLightAlone(const BladeView& view,
   if (!border && TypicalContrast(*edge) > 0) {
     told_apart = kHardlyApart;
     border = border_along(*edge);
+    if (border && border->offset_px > 0) return;  // a bevel's line, if anything
   }
   if (!is_far(border)) return;
   const EdgeGuess guess{border->path_px, left, kSearchPx};
