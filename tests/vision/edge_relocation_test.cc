@@ -23,6 +23,7 @@ using testing::FarFrom;
 using testing::Measured;
 using testing::SceneWithMarkers;
 using testing::SceneWithShadow;
+using testing::WithoutColours;
 
 void Relocate(Measured* measured) {
   RelocateUnlikeEdges(measured->View(), &measured->pivot, &measured->blades);
@@ -143,7 +144,8 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeOutsideOfAClearerLineOnTheBlade) {
 TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAHardShadow) {
   constexpr double kShadowPx = 1.5, kClosePx = 0.3, kHardMm = 0.2;
   for (const double direction_rad : {225 * kDegree, 270 * kDegree, 315 * kDegree}) {
-    Measured measured{SceneWithShadow(62 * kDegree, direction_rad, kHardMm)};
+    const SceneSpec spec = SceneWithShadow(62 * kDegree, direction_rad, kHardMm);
+    Measured measured{spec, WithoutColours(spec)};
     const EdgeTruth& truth = measured.truth.lower;
     ASSERT_GT(FarFrom(truth, measured.blades.lower.used), kShadowPx) << direction_rad;
     Relocate(&measured);
@@ -158,7 +160,7 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeOfABlackBladeInsideOfAHardShadow) {
   for (const double direction_rad : {225 * kDegree, 270 * kDegree}) {
     SceneSpec spec = SceneWithShadow(62 * kDegree, direction_rad, kHardMm);
     spec.finish = Finish::kBlack;
-    Measured measured{spec};
+    Measured measured{spec, WithoutColours(spec)};
     const EdgeTruth& truth = measured.truth.lower;
     EXPECT_GT(FarFrom(truth, measured.blades.lower.used), kShadowPx) << direction_rad;
     Relocate(&measured);
@@ -193,7 +195,8 @@ TEST(RelocateUnlikeEdges, DoubtsTheVaguerOfEdgesThatNothingMakesAlike) {
 TEST(RelocateUnlikeEdges, LeavesAShadowsBorderTheSoonerTheMoreDoubtfulItIs) {
   constexpr double kAsidePx = 0.6, kClosePx = 0.3, kHardMm = 0.2;
   for (const bool doubtful : {false, true}) {
-    Measured measured{SceneWithShadow(72 * kDegree, 270 * kDegree, kHardMm)};
+    const SceneSpec spec = SceneWithShadow(72 * kDegree, 270 * kDegree, kHardMm);
+    Measured measured{spec, WithoutColours(spec)};
     const Vector2d& axis = measured.truth.axis_px;
     measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
     measured.blades.lower.edge.ambiguity = doubtful ? 0.8 : 0.1;
@@ -290,7 +293,8 @@ TEST(RelocateUnlikeEdges, LeavesEdgesThatMirrorEachOther) {
 // but it is said.
 TEST(RelocateUnlikeEdges, FindsTheEdgeInsideOfAShadowWithoutMarkers) {
   constexpr double kShadowPx = 3, kClosePx = 0.3, kHardMm = 0.2, kWarned = 0.5;
-  Measured measured{SceneWithShadow(54 * kDegree, 270 * kDegree, kHardMm)};
+  const SceneSpec spec = SceneWithShadow(54 * kDegree, 270 * kDegree, kHardMm);
+  Measured measured{spec, WithoutColours(spec)};
   measured.scale.sheet.reset();
   ASSERT_GT(FarFrom(measured.truth.lower, measured.blades.lower.used), kShadowPx);
   Relocate(&measured);

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
@@ -105,12 +106,20 @@ inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
   }));
 }
 
+// As a camera that sees no colours takes the scene: none tell shadows from blades.
+inline cv::Mat WithoutColours(const SceneSpec& spec) {
+  cv::Mat grey;
+  cv::cvtColor(RenderScene(spec).bgr, grey, cv::COLOR_BGR2GRAY);
+  return grey;
+}
+
 // A rendered photograph up to where the edges are compared. The blades' outer sides, which tell
 // cast shadows, stay unseen: an edge may lie at a shadow's border.
 struct Measured {
-  explicit Measured(const SceneSpec& spec)
+  explicit Measured(const SceneSpec& spec) : Measured(spec, RenderScene(spec).bgr) {}
+  Measured(const SceneSpec& spec, const cv::Mat& picture)
       : truth(TruthOf(spec)),
-        photo(PhotoOf(RenderScene(spec).bgr)),
+        photo(PhotoOf(picture)),
         scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();

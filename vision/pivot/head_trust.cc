@@ -60,7 +60,8 @@ bool MirrorNear(const Screw& screw, const HeadSearch& known) {
                                   (known.edges.right_px.back() - foot.point_px).norm());
   const double by_place = 2 * std::sqrt(0.5 * foot.covariance_px2.trace()) / length_px;
   const double asymmetry = std::abs(AsymmetryAbout(foot.point_px, known));
-  return !AreUnlike(asymmetry) && !AreSuspect(std::max(0.0, asymmetry - by_place));
+  if (screw.evidence < kFaint && AreUnlike(asymmetry)) return false;
+  return !AreSuspect(std::max(0.0, asymmetry - by_place));
 }
 
 bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {

@@ -16,8 +16,8 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 [[nodiscard]] bool IsCredibleThere(const Screw& screw, const HeadSearch& known);
 
 // Whether the edges mirror each other about a place as near to the head as that is known. One that
-// lies aside adds to one edge's distance and takes from the other's; that excuses edges that are
-// suspect, none that are unlike.
+// lies aside adds to one edge's distance and takes from the other's; of one that hardly shows that
+// excuses edges that are suspect, none that are unlike.
 [[nodiscard]] bool MirrorNear(const Screw& screw, const HeadSearch& known);
 
 // Whether they mirror each other as far as the view is known. A slanted one parts edges as well,
