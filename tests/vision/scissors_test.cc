@@ -22,7 +22,7 @@ namespace {
 
 // In direct sun the likeliest mask may follow a shadow's border.
 TEST(LocateScissors, MeasuresInAnotherMaskWhatTheLikeliestWasRefusedFor) {
-  const SceneSpec spec = RandomScene(222, Difficulty::kSun);
+  const SceneSpec spec = RandomScene(10, Difficulty::kSun);
   MeasureOptions options;
   options.scale.mm_per_px = spec.camera.mm_per_px;
   const std::filesystem::path file = ProcessFolder() / "picture.png";
