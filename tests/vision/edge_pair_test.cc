@@ -115,8 +115,8 @@ TEST(LiesInGround, IsTrueOfAShadowsBorderOnColouredGroundAlone) {
 // colour.
 TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
   constexpr double kClosePx = 0.3;
-  for (const double shadow : {0.5, 0.7}) {
-    SceneSpec spec = SceneWithShadowsInTheGap(35 * kDegree);
+  for (const double shadow : {0.55, 0.62}) {
+    SceneSpec spec = SceneWithShadowsInTheGap(45 * kDegree);
     spec.backdrop = Backdrop::kDrape;
     spec.drape_rgb = {0.68, 0.66, 0.6};
     spec.texture = 0;

@@ -19,7 +19,7 @@ constexpr double kFarPx = 1.3;  // what colours tell apart
 // From a line at which only light changes to the one at which the ground's colour ends; where that
 // line draws the edge back to itself, in colours that show shadows less. From what may be a
 // shadow's border, at which light rises, also to where colours hardly differ, if the edge is seen
-// there; that it is not raises no doubt then.
+// there; that it is not raises no doubt then, and where grey leaves one they are not asked.
 void LeaveLightAlone(const BladeView& view,
                      const ReducedColours& colours,
                      const LocatedEdge& other,
@@ -38,7 +38,7 @@ void LeaveLightAlone(const BladeView& view,
     return border && std::abs(border->offset_px) >= kFarPx;
   };
   auto border = border_along(*edge);
-  if (!border && TypicalContrast(*edge) > 0) {
+  if (!border && TypicalContrast(*edge) > 0 && edge->ambiguity <= kAsGood) {
     told_apart = kHardlyApart;
     border = border_along(*edge);
     if (border && border->offset_px > 0) return;  // a bevel's line, if anything
