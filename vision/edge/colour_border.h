@@ -34,11 +34,11 @@ struct ColourBorder {
   double offset_px = 0;
 };
 
-// Whether some part of a picture is coloured enough to be told from grey steel.
-[[nodiscard]] bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone);
-
 // Chromas that differ by less may be one in another light.
 inline constexpr double kToldApart = 0.2;
+
+// Whether some part of a picture is coloured enough to be told from grey steel.
+[[nodiscard]] bool ShowsColour(const cv::Mat& bgr, const ToneCurve& tone);
 
 // std::nullopt where blade and ground are alike in colour, to `told_apart`, or the blade mirrors
 // the ground: colours go over into each other slowly, or the ground's goes on within the edge

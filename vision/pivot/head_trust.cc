@@ -18,12 +18,15 @@ using Eigen::Vector2d;
 constexpr double kLeastOdds = 3;  // 20 to 1
 constexpr double kFaint = 5;      // evidence of a head that something else must speak for
 
+// With a bar from end to end of it.
+bool IsSlotted(const Screw& screw) { return screw.slot && screw.slot->ends_seen; }
+
 // ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
 // pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
 double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
   constexpr double kSlotted = 3;
   const PlacePx& place = known.by_geometry;
-  return screw.evidence + (screw.slot && screw.slot->ends_seen ? kSlotted : 0) -
+  return screw.evidence + (IsSlotted(screw) ? kSlotted : 0) -
          0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
 }
 
@@ -78,16 +81,15 @@ bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
 bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
   const bool seen = screw.evidence > (known.scale.sheet ? kFaintestHead : kFaint);
   if (screw.evidence > kFaintHead || (seen && MirrorNear(screw, known))) return true;
-  const bool slotted = screw.slot && screw.slot->ends_seen;
-  return ((seen && slotted) || OddsAtPlace(screw, known) > kLeastOdds) &&
+  return ((seen && IsSlotted(screw)) || OddsAtPlace(screw, known) > kLeastOdds) &&
          MayMirrorAbout(screw, known);
 }
 
 bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
   if (screw.evidence > kUnmistakable || MirrorNear(screw, known)) return true;
   if (screw.evidence <= kFaint || !MayMirrorAbout(screw, known)) return false;
-  const bool slotted = screw.slot && screw.slot->ends_seen;
-  return LiesWhereBladesTurn(screw, known) || (slotted && OddsAtPlace(screw, known) > kLeastOdds);
+  return LiesWhereBladesTurn(screw, known) ||
+         (IsSlotted(screw) && OddsAtPlace(screw, known) > kLeastOdds);
 }
 
 }  // namespace bladecurve

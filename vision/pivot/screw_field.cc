@@ -271,17 +271,23 @@ RimField::SectorRows RimField::RowsOf(std::size_t sector,
 
 void RimField::AddSector(std::size_t sector,
                          const CircleOffsets& offsets,
-                         const cv::Point& start,
-                         int count,
-                         float* sums) const {
-  const SectorRows a = RowsOf(sector, offsets, start);
-  const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite
+                         const cv::Rect& centers,
+                         const cv::Range& rows,
+                         cv::Mat* sums) const {
   const float edge_weight = edge_weight_[sector], line_weight = line_weight_[sector];
-  for (int i = 0; i < count; ++i) {
-    const float edge = a.edge[i] + a.next_edge[i], line = a.line[i] + a.next_line[i];
-    const float far_edge = b.edge[i] + b.next_edge[i], far_line = b.line[i] + b.next_line[i];
-    sums[i] += SectorScores(edge * edge * edge_weight + line * line * line_weight,
-                            far_edge * far_edge * edge_weight + far_line * far_line * line_weight);
+  for (int row = rows.start; row < rows.end; ++row) {
+    const cv::Range within = RowOfDisc(row, centers.size());
+    const cv::Point start = cv::Point(centers.x + within.start, centers.y + row) - inner_.tl();
+    const SectorRows a = RowsOf(sector, offsets, start);
+    const SectorRows b = RowsOf(sector + kSectors / 2, offsets, start);  // opposite
+    const int count = within.size();
+    float* const out = sums->ptr<float>(row) + within.start;
+    for (int i = 0; i < count; ++i) {
+      const float edge = a.edge[i] + a.next_edge[i], line = a.line[i] + a.next_line[i];
+      const float far_edge = b.edge[i] + b.next_edge[i], far_line = b.line[i] + b.next_line[i];
+      out[i] += SectorScores(edge * edge * edge_weight + line * line * line_weight,
+                             far_edge * far_edge * edge_weight + far_line * far_line * line_weight);
+    }
   }
 }
 
@@ -295,19 +301,10 @@ std::vector<cv::Mat> RimField::ScoreCircles(const cv::Rect& centers,
     scores.push_back(cv::Mat::zeros(centers.size(), CV_32F));
   }
   for (int first = 0; first < centers.height; first += kRowsAtOnce) {
-    const int last = std::min(first + kRowsAtOnce, centers.height);
+    const cv::Range rows(first, std::min(first + kRowsAtOnce, centers.height));
     for (std::size_t sector = 0; sector < kSectors / 2; ++sector) {
-      for (std::size_t k = 0; k < radii.size(); ++k) {
-        for (int row = first; row < last; ++row) {
-          const cv::Range within = RowOfDisc(row, centers.size());
-          const cv::Point start(centers.x + within.start, centers.y + row);
-          AddSector(sector,
-                    offsets[k],
-                    start - inner_.tl(),
-                    within.size(),
-                    scores[k].ptr<float>(row) + within.start);
-        }
-      }
+      for (std::size_t i = 0; i < radii.size(); ++i)
+        AddSector(sector, offsets[i], centers, rows, &scores[i]);
     }
   }
   for (cv::Mat& score : scores) score *= 1.0 / kSectors;

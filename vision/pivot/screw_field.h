@@ -71,12 +71,12 @@ class RimField {
   [[nodiscard]] SectorRows RowsOf(std::size_t sector,
                                   const CircleOffsets& offsets,
                                   const cv::Point& start) const;
-  // Adds the scores of a sector and the opposite one, for centres along a row.
+  // Adds the scores of a sector and the opposite one to some rows of ScoreCircles' sums.
   void AddSector(std::size_t sector,
                  const CircleOffsets& offsets,
-                 const cv::Point& start,
-                 int count,
-                 float* sums) const;
+                 const cv::Rect& centers,
+                 const cv::Range& rows,
+                 cv::Mat* sums) const;
   // Responses with every place moved along its tangent by that share of the mean radius.
   [[nodiscard]] SectorResponses ResponsesAside(const RimEllipse& rim, double share) const;
 

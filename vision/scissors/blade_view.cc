@@ -150,11 +150,13 @@ const PicturePart& BladeView::Colours() const {
   return colours_;
 }
 
-ReducedColours BladeView::Reduced() const {
+const ReducedColours& BladeView::Reduced() const {
   constexpr int kSmallest = 2000;  // px, of the longest side
-  const PicturePart& full = Colours();
-  if (std::max(grey().cols, grey().rows) < kSmallest) return {full, 1};
-  return {Halved(full), 2};
+  std::call_once(halved_, [this] {
+    const bool small = std::max(grey().cols, grey().rows) < kSmallest;
+    reduced_ = small ? ReducedColours{Colours(), 1} : ReducedColours{Halved(Colours()), 2};
+  });
+  return reduced_;
 }
 
 bool BladeView::ShowsColourAtTop() const {

@@ -78,7 +78,7 @@ class BladeView {
   // BGR, about the blades; and at half the resolution, at which colours are stored anyway, where
   // the photograph is large.
   [[nodiscard]] const PicturePart& Colours() const;
-  [[nodiscard]] ReducedColours Reduced() const;
+  [[nodiscard]] const ReducedColours& Reduced() const;
   // Whether the topmost rows, which stand for the ground, show a colour.
   [[nodiscard]] bool ShowsColourAtTop() const;
 
@@ -93,8 +93,9 @@ class BladeView {
   const ScaleResult& scale_;
   const Scene& scene_;
   EdgeOptions options_;
-  mutable std::once_flag decoded_;
+  mutable std::once_flag decoded_, halved_;
   mutable PicturePart colours_;
+  mutable ReducedColours reduced_;
 };
 
 // What an edge's points tell about where it runs, for comparison with another along it. 1/px^2.

@@ -16,50 +16,65 @@ namespace {
 
 constexpr double kFarPx = 1.3;  // what colours tell apart
 
-// From a line at which only light changes to the one at which the ground's colour ends; where that
-// line draws the edge back to itself, in colours that show shadows less. From what may be a
-// shadow's border, at which light rises, also to where colours hardly differ, if the edge is seen
-// there; that it is not raises no doubt then, and where grey leaves one they are not asked.
-void LeaveLightAlone(const BladeView& view,
-                     const ReducedColours& colours,
-                     const LocatedEdge& other,
-                     bool left,
-                     LocatedEdge* edge) {
-  constexpr double kSearchPx = 4;
-  constexpr double kWay = 0.5;    // of the way there, at least
-  constexpr double kShade = 0.5;  // of the light
-  constexpr double kHardlyApart = 0.05;
-  const double width_px = BladeOf(view.scene(), left).width_px;
-  double told_apart = kToldApart;
-  const auto border_along = [&](const LocatedEdge& line) {
-    return FindColourBorder(colours, view.tone(), line, other, width_px, told_apart);
-  };
-  const auto is_far = [](const auto& border) {
-    return border && std::abs(border->offset_px) >= kFarPx;
-  };
-  auto border = border_along(*edge);
-  if (!border && TypicalContrast(*edge) > 0 && edge->ambiguity <= kAsGood) {
-    told_apart = kHardlyApart;
-    border = border_along(*edge);
-    if (border && border->offset_px > 0) return;  // a bevel's line, if anything
+// The colours beside one blade's edge.
+struct ColoursBeside {
+  const BladeView& view;
+  const LocatedEdge& other;  // the other blade's
+  bool left;
+
+  // Where the ground's colour ends beside a line.
+  [[nodiscard]] std::optional<ColourBorder> BorderAlong(const LocatedEdge& line,
+                                                        double told_apart = kToldApart) const {
+    const double width_px = BladeOf(view.scene(), left).width_px;
+    return FindColourBorder(view.Reduced(), view.tone(), line, other, width_px, told_apart);
   }
-  if (!is_far(border)) return;
-  const EdgeGuess guess{border->path_px, left, kSearchPx};
-  const auto is_border = [&](const std::optional<LocatedEdge>& again) {
-    return again && DistanceOfFarthestThird(*again, *edge) >= kWay * std::abs(border->offset_px) &&
-           !is_far(border_along(*again));
-  };
-  for (const double shade : {0.0, kShade}) {
-    std::optional<LocatedEdge> coloured = view.InColoursAlone(guess, shade);
-    if (!coloured) continue;
-    std::optional<LocatedEdge> in_grey = view.ClearerInGrey(*coloured, left);
-    for (std::optional<LocatedEdge>* again : {&in_grey, &coloured}) {
-      if (!is_border(*again)) continue;
-      *edge = **std::move(again);
-      return;
+
+  // The edge as it is seen at that border, away from `line`; where that draws the edge back to
+  // itself, in colours that show shadows less.
+  [[nodiscard]] std::optional<LocatedEdge> EdgeAt(const ColourBorder& border,
+                                                  const LocatedEdge& line,
+                                                  double told_apart = kToldApart) const {
+    constexpr double kSearchPx = 4;
+    constexpr double kWay = 0.5;    // of the way there, at least
+    constexpr double kShade = 0.5;  // of the light
+    const auto is_border = [&](const std::optional<LocatedEdge>& edge) {
+      if (!edge || DistanceOfFarthestThird(*edge, line) < kWay * std::abs(border.offset_px))
+        return false;
+      const auto border_there = BorderAlong(*edge, told_apart);
+      return !border_there || std::abs(border_there->offset_px) < kFarPx;
+    };
+    const EdgeGuess guess{border.path_px, left, kSearchPx};
+    for (const double shade : {0.0, kShade}) {
+      std::optional<LocatedEdge> coloured = view.InColoursAlone(guess, shade);
+      if (!coloured) continue;
+      std::optional<LocatedEdge> in_grey = view.ClearerInGrey(*coloured, left);
+      if (is_border(in_grey)) return in_grey;
+      if (is_border(coloured)) return coloured;
     }
+    return std::nullopt;
   }
-  if (told_apart == kHardlyApart) return;
+};
+
+// From what may be a shadow's border, at which light rises, inwards to where colours hardly differ,
+// if the edge is seen there: a shadow that passes for blade unseen. Where grey leaves a doubt they
+// are not asked, and that no edge is seen raises none.
+void LeavePassingShadow(const ColoursBeside& colours, LocatedEdge* edge) {
+  constexpr double kHardlyApart = 0.05;
+  if (TypicalContrast(*edge) <= 0 || edge->ambiguity > kAsGood) return;
+  const auto border = colours.BorderAlong(*edge, kHardlyApart);
+  if (!border || border->offset_px > -kFarPx) return;
+  if (auto within = colours.EdgeAt(*border, *edge, kHardlyApart)) *edge = *std::move(within);
+}
+
+// From a line at which only light changes to the one at which the ground's colour ends.
+void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
+  const auto border = colours.BorderAlong(*edge);
+  if (!border) return LeavePassingShadow(colours, edge);
+  if (std::abs(border->offset_px) < kFarPx) return;
+  if (auto there = colours.EdgeAt(*border, *edge)) {
+    *edge = *std::move(there);
+    return;
+  }
   SetRival(edge, border->offset_px);
   DoubtForRival(edge, std::abs(border->offset_px));
 }
@@ -84,13 +99,12 @@ void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges) {
   if (plan == Plan::kAsNeeded && costly && !LeavesDoubt(edges->upper) &&
       !LeavesDoubt(edges->lower) && !ShadowsMightPass(view, *edges))
     return;
-  const ReducedColours colours = view.Reduced();
   const BladeEdges found = *edges;
   ParallelFor(2, [&](int blade) {
     if (blade == 0) {
-      LeaveLightAlone(view, colours, found.lower, true, &edges->upper);
+      LeaveLightAlone({view, found.lower, true}, &edges->upper);
     } else {
-      LeaveLightAlone(view, colours, found.upper, false, &edges->lower);
+      LeaveLightAlone({view, found.upper, false}, &edges->lower);
     }
   });
 }
@@ -100,8 +114,7 @@ bool LiesInGround(const BladeView& view,
                   const LocatedEdge& other,
                   bool left) {
   if (TypicalContrast(edge) <= 0 || !view.ShowsColourAtTop()) return false;
-  const auto border = FindColourBorder(
-      view.Reduced(), view.tone(), edge, other, BladeOf(view.scene(), left).width_px);
+  const auto border = ColoursBeside{view, other, left}.BorderAlong(edge);
   return border && border->offset_px <= -kFarPx;
 }
 
