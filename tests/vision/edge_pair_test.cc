@@ -111,9 +111,8 @@ TEST(LiesInGround, IsTrueOfAShadowsBorderOnColouredGroundAlone) {
   EXPECT_FALSE(LiesInGround(view, edges.upper, edges.lower, true));
 }
 
-// Steel on paper of a warmer white: the shadows are as dark as the blades, and nearly of their
-// colour.
-TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
+// Steel on ground of a warmer white, in shadows about as dark as the blades.
+TEST(LocateBlades, FindEdgesBesideShadowsOnNearlyWhiteGround) {
   constexpr double kClosePx = 0.3;
   for (const double shadow : {0.55, 0.62}) {
     SceneSpec spec = SceneWithShadowsInTheGap(45 * kDegree);
@@ -126,6 +125,15 @@ TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
   }
+}
+
+// On paper a hard shadow of the blade's grey, 2.3 px wide: grey shows its border alone, and clearly.
+TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
+  constexpr double kClosePx = 1;
+  constexpr std::uint64_t kSeed = 1002003147;
+  const SceneSpec spec = RandomScene(kSeed, Difficulty::kSun);
+  const BladeEdges edges = Seen(spec).Locate();
+  EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx);
 }
 
 // A drape about as bright as the blades, whose tips the mask has cut short.
