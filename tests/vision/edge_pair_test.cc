@@ -127,7 +127,8 @@ TEST(LocateBlades, FindEdgesBesideShadowsOnNearlyWhiteGround) {
   }
 }
 
-// On paper a hard shadow of the blade's grey, 2.3 px wide: grey shows its border alone, and clearly.
+// On paper a hard shadow of the blade's grey, 2.3 px wide: grey shows its border alone, and
+// clearly.
 TEST(LocateBlades, TakesTheColoursWhereTheyHardlyTellShadowsFromBlades) {
   constexpr double kClosePx = 1;
   constexpr std::uint64_t kSeed = 1002003147;
