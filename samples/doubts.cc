@@ -52,6 +52,8 @@ constexpr std::array kDoubts = {
     Doubt{
         "upper_edge_overexposed",
         "the blade is plain white along its upper edge, which seems further out then; expose less"},
+    Doubt{"marker_near_blade",
+          "a marker's paper reaches a cutting edge or a tip; lay it a marker's width away"},
     Doubt{"theta_vague",
           "the angle is known to more than a quarter of a degree only; let the pivot and both tips "
           "show clearly, and markers the tilt of the view"},

@@ -2,10 +2,18 @@
 // SPDX-License-Identifier: MIT
 #include "vision/warnings.h"
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "vision/scale/marker_paper.h"
 
 namespace bladecurve {
 namespace {
+
+using Eigen::Vector2d;
 
 // Several transitions about as good, or one that changes to another line on the way: at its ends
 // other things may cover an edge, but seldom so much of it.
@@ -20,6 +28,29 @@ bool IsOverexposed(const LocatedBlade& blade) {
   constexpr double kKnownPx = 0.25;  // as where the other edge tells how sharp this one is
   const bool glares = blade.edge.overexposed > kShare && TypicalContrast(blade.edge) < 0;
   return glares && EdgeSigmaPx(blade) > kKnownPx;
+}
+
+bool LiesOn(const std::array<Vector2d, 4>& paper, const Vector2d& point_px) {
+  std::array<cv::Point2f, 4> outline;
+  std::transform(paper.begin(), paper.end(), outline.begin(), [](const Vector2d& corner) {
+    return cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()));
+  });
+  const cv::Point2d at(point_px.x(), point_px.y());
+  return cv::pointPolygonTest(outline, at, false) >= 0;
+}
+
+// Whether a marker hid the distal end from scene finding, or a good part of the edge.
+bool IsBesideMarker(const LocatedBlade& blade, const std::vector<SeenMarker>& markers) {
+  constexpr double kShare = 0.1;  // of the edge
+  return std::any_of(markers.begin(), markers.end(), [&](const SeenMarker& marker) {
+    const std::array<Vector2d, 4> paper = PaperOf(marker);
+    const auto hidden =
+        std::count_if(blade.used.begin(), blade.used.end(), [&](const LocatedEdgePoint& point) {
+          return LiesOn(paper, point.point_px);
+        });
+    return LiesOn(paper, blade.end.point_px) ||
+           static_cast<double>(hidden) > kShare * static_cast<double>(blade.used.size());
+  });
 }
 
 }  // namespace
@@ -47,6 +78,9 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   warn_if(IsAmbiguous(blades.lower.edge), "lower_edge_ambiguous");
   warn_if(EdgeSigmaPx(blades.upper) > kVaguePx, "upper_edge_vague");
   warn_if(IsOverexposed(blades.upper), "upper_edge_overexposed");
+  const bool beside_marker =
+      IsBesideMarker(blades.upper, scale.markers) || IsBesideMarker(blades.lower, scale.markers);
+  warn_if(beside_marker, "marker_near_blade");
   return warnings;
 }
 

@@ -73,6 +73,30 @@ TEST(WarningsOf, DoubtsAnUpperEdgeBesideABladeThatIsPlainWhite) {
   EXPECT_FALSE(Warns(measured, "upper_edge_overexposed")) << "the other edge tells the blur";
 }
 
+TEST(WarningsOf, DoubtsBladesThatAMarkersPaperReaches) {
+  Measured measured{SceneWithMarkers()};
+  EXPECT_FALSE(Warns(measured, "marker_near_blade"));
+  SeenMarker& marker = measured.scale.markers.front();
+  const auto lay_at = [&](const Eigen::Vector2d& center_px, double side_px) {
+    const double half = side_px / 2;
+    marker.corners_px = {center_px + Eigen::Vector2d(-half, -half),
+                         center_px + Eigen::Vector2d(half, -half),
+                         center_px + Eigen::Vector2d(half, half),
+                         center_px + Eigen::Vector2d(-half, half)};
+  };
+  constexpr double kSidePx = 100, kReachPx = 0.8 * kSidePx;
+  const Eigen::Vector2d tip_px = measured.blades.lower.end.point_px;
+  lay_at(tip_px + Eigen::Vector2d(kReachPx + 2, 0), kSidePx);
+  EXPECT_FALSE(Warns(measured, "marker_near_blade")) << "beside its paper";
+  lay_at(tip_px + Eigen::Vector2d(kReachPx - 2, 0), kSidePx);
+  EXPECT_TRUE(Warns(measured, "marker_near_blade")) << "a tip on its paper";
+  const std::vector<LocatedEdgePoint>& edge = measured.blades.upper.used;
+  lay_at(edge[edge.size() / 2].point_px, kSidePx);
+  EXPECT_TRUE(Warns(measured, "marker_near_blade")) << "an edge on its paper";
+  lay_at(edge[edge.size() / 2].point_px, 2);
+  EXPECT_FALSE(Warns(measured, "marker_near_blade")) << "hardly any of it";
+}
+
 TEST(WarningsOf, DoubtsEdgesThatAreAmbiguousOrUnlike) {
   Measured measured{SceneWithMarkers()};
   measured.blades.upper.edge.ambiguity = measured.blades.lower.edge.ambiguity = 0.4;

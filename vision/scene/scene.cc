@@ -143,9 +143,16 @@ std::string WhatHintsSay(const StoredHints& hints) {
   return names.empty() ? "" : "; or it is otherwise than said: check " + names;
 }
 
+std::string WhatMarkersDo(const std::vector<SeenMarker>& markers) {
+  if (markers.empty()) return "";
+  return "; the paper of markers is left out: lay them a marker's width away from the blades";
+}
+
 const char* WhereLooked(const StoredHints& hints) { return hints.roi_px ? "--roi" : "the picture"; }
 
-void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
+void RefuseUnlessUsable(const LadderResult& ladder,
+                        const std::vector<SeenMarker>& markers,
+                        const StoredHints& hints) {
   if (ladder.best.pair.quality < kAcceptedQuality && ladder.closed) {
     throw Refused(
         Reason::kClosed,
@@ -161,7 +168,7 @@ void RefuseUnlessUsable(const LadderResult& ladder, const StoredHints& hints) {
         Reason::kNotScissors,
         "scene: no pair of open blades found" + nearest +
             "; show the scissors open and whole on a plain ground, or point at them with --roi" +
-            WhatHintsSay(hints));
+            WhatMarkersDo(markers) + WhatHintsSay(hints));
   }
   const BladePair& pair = ladder.best.pair;
   if (RunsOut(pair)) {
@@ -230,7 +237,7 @@ SceneFinder::SceneFinder(const Photo& photo,
       log_(log),
       ladder_(std::make_unique<SceneLadder>(photo, markers_, hints_, log)),
       first_(std::make_unique<LadderResult>(ladder_->Climb(log->plan()))) {
-  RefuseUnlessUsable(*first_, hints_);
+  RefuseUnlessUsable(*first_, markers_, hints_);
 }
 
 SceneFinder::~SceneFinder() = default;
@@ -260,7 +267,7 @@ void SceneFinder::LookAgain() {
   } else {
     later_ = std::make_unique<LadderResult>(by_other_methods(ladder_->Climb(Plan::kFull)));
   }
-  RefuseUnlessUsable(Shown(), hints_);
+  RefuseUnlessUsable(Shown(), markers_, hints_);
 }
 
 }  // namespace bladecurve

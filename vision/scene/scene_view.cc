@@ -8,6 +8,7 @@
 
 #include "vision/image/block_means.h"
 #include "vision/image/lab_colour.h"
+#include "vision/scale/marker_paper.h"
 
 namespace bladecurve {
 namespace {
@@ -80,16 +81,13 @@ bool SceneView::KeepsNoise(int longest) const {
 }
 
 cv::Mat SceneView::MarkerMask(const ScaledImage& at) const {
-  constexpr double kMargin = 1.6;  // side of the paper over that of the marker
   cv::Mat mask;
   if (markers.empty()) return mask;
   mask = cv::Mat::zeros(at.pixels.size(), CV_8UC1);
   for (const SeenMarker& marker : markers) {
-    Vector2d center = Vector2d::Zero();
-    for (const Vector2d& corner : marker.corners_px) center += 0.25 * corner;
     std::vector<cv::Point> polygon;
-    for (const Vector2d& corner : marker.corners_px) {
-      const Vector2d p = at.SmallFromFull(center + kMargin * (corner - center));
+    for (const Vector2d& corner : PaperOf(marker)) {
+      const Vector2d p = at.SmallFromFull(corner);
       polygon.emplace_back(static_cast<int>(std::lround(p.x())),
                            static_cast<int>(std::lround(p.y())));
     }
