@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "path_distance.h"
 #include "process_folder.h"
 #include "vision/measure.h"
 #include "vision/photo/photo.h"
@@ -33,6 +34,22 @@ TEST(LocateScissors, MeasuresInAnotherMaskWhatTheLikeliestWasRefusedFor) {
   }));
   EXPECT_EQ(std::count(result.warnings.begin(), result.warnings.end(), "scene_doubtful"), 1);
   EXPECT_LT((result.pivot_px - TruthOf(spec).pivot_px).norm(), 3 * result.pivot_sigma_px);
+}
+
+// Direct sun: steel, brighter than its ground, casts hard shadows as plain as the blades.
+TEST(LocateScissors, TellsBladesFromTheHardShadowsThatTheyCast) {
+  constexpr double kClosePx = 1;
+  for (const std::uint64_t seed : {4004012046, 4004012059}) {
+    const SceneSpec spec = RandomScene(seed, Difficulty::kSun);
+    MeasureOptions options;
+    options.scale.mm_per_px = spec.camera.mm_per_px;
+    const std::filesystem::path file = ProcessFolder() / "sun.png";
+    WritePng(file, RenderScene(spec).bgr);
+    const PhotoMeasurement result = MeasurePhoto(file, options);
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(RmsToPath(result.upper_edge_px, truth.upper.px), kClosePx) << seed;
+    EXPECT_LT(RmsToPath(result.lower_edge_px, truth.lower.px), kClosePx) << seed;
+  }
 }
 
 // Jaws, however they are looked at.

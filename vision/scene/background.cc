@@ -196,6 +196,17 @@ BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
   return model;
 }
 
+cv::Mat AboveBackground(const cv::Mat& image, const BackgroundModel& background) {
+  cv::Mat above(image.size(), CV_32FC1);
+  for (int row = 0; row < image.rows; ++row) {
+    const RowOfBackground expected(background.coefficients[0], image.size(), row);
+    const float* pixels = image.ptr<float>(row);
+    float* out = above.ptr<float>(row);
+    for (int col = 0; col < image.cols; ++col) out[col] = pixels[col] - expected(col);
+  }
+  return above;
+}
+
 cv::Mat DistanceFromBackground(const cv::Mat& image, const BackgroundModel& background) {
   return image.channels() == 1 ? DistanceIn<1>(image, background)
                                : DistanceIn<3>(image, background);

@@ -21,6 +21,9 @@ struct BackgroundModel {
 // empty) is non-zero where pixels do not count.
 [[nodiscard]] BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore);
 
+// What `image` (CV_32FC1) shows above the background, below it negative.
+[[nodiscard]] cv::Mat AboveBackground(const cv::Mat& image, const BackgroundModel& background);
+
 // Distance of each pixel from the background in units of its scatter, CV_32FC1.
 [[nodiscard]] cv::Mat DistanceFromBackground(const cv::Mat& image,
                                              const BackgroundModel& background);

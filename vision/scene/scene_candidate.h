@@ -18,7 +18,7 @@ struct Candidate {
   BladePair pair;
   std::shared_ptr<const ScaledImage> at;
   cv::Mat mask;
-  std::string method;  // "grey", "colour", "shadow-blind", "flood", "regions", "broad"
+  std::string method;  // "grey", "caster", "colour", "shadow-blind", "flood", "regions", "broad"
   double threshold = 0;
   bool outlined = false;  // the mask ends at sharp borders, of which a soft shadow has none
   double strength =

@@ -9,6 +9,7 @@
 
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 #include "vision/refused.h"
 #include "vision/scene/scene_debug.h"
@@ -156,6 +157,27 @@ bool ShowsWholeBlades(const LadderResult& result) {
   return pair.quality >= kAcceptedQuality && !RunsOut(pair);
 }
 
+// What the best candidate is seen in, as far as it hangs together; without one that could be
+// accepted, all that is plainly no background.
+cv::Mat ThingsIn(const Rung& rung) {
+  constexpr double kPlainly = 4, kSmooth = 0.8;
+  const Candidate best = Choose(rung.candidates).best;
+  if (best.pair.quality < kAcceptedQuality)
+    return MaskAbove(Smoothed(rung.distance, kSmooth), kPlainly);
+  const std::vector<Silhouette> things = FindSilhouettes(best.mask, 4);
+  const Silhouette* own = ThingAt(things, best.pair.pivot);
+  return own == nullptr ? best.mask : best.mask & own->filled;
+}
+
+// What grey shows, and what of it is no cast shadow if it shows one.
+std::vector<Rung> GreyRungs(const SceneView& view) {
+  const GreyPicture grey = GreyOnGround(view);
+  std::vector rungs{GreyRung(view, grey)};
+  Rung caster = CasterRung(view, grey, ThingsIn(rungs.front()));
+  if (!caster.candidates.empty()) rungs.push_back(std::move(caster));
+  return rungs;
+}
+
 const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
 
 // What the candidates that are kept show best.
@@ -234,11 +256,16 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
   const auto see = [&](const char* stage, const std::string& why, const auto& look) {
     return See(stage, why, looked, look);
   };
-  LadderResult result =
-      Consider(see("scene-grey",
-                   view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look",
-                   [&] { return std::vector{GreyRung(view)}; }),
-               all);
+  const std::vector<Rung>& in_grey =
+      see("scene-grey",
+          view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look",
+          [&] { return GreyRungs(view); });
+  LadderResult result = Consider(in_grey, all);
+  if (in_grey.size() > 1) {
+    // Where that is consistent, what holds the shadow, too, is not.
+    const LadderResult caster = Choose(in_grey.back().candidates);
+    if (Consistent(caster)) result.best = caster.best;
+  }
   const bool grey_suffices = Consistent(result);
   if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log_->Skipped("scene-colour", "grey gave a consistent scene");

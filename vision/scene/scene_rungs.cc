@@ -11,9 +11,9 @@
 
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
-#include "vision/scene/background.h"
 #include "vision/scene/flood.h"
 #include "vision/scene/region_merging.h"
+#include "vision/scene/shadow_caster.h"
 #include "vision/scene/sharp_gradient.h"
 #include "vision/scene/silhouette.h"
 
@@ -141,13 +141,32 @@ std::vector<cv::Mat> LevelsOf(const Outlines& outlines, const Level& level) {
 
 }  // namespace
 
-Rung GreyRung(const SceneView& view) {
-  const auto at = std::make_shared<const ScaledImage>(SmallGrey(view, kSmallSide));
-  const cv::Mat ignore = view.MarkerMask(*at);
-  const BackgroundModel background = FitBackground(at->pixels, ignore);
-  cv::Mat distance = DistanceFromBackground(at->pixels, background);
-  if (!ignore.empty()) distance.setTo(0, ignore);
-  return ThresholdAll(distance, ignore, Candidate{{}, at, {}, "grey"}, view.hints);
+GreyPicture GreyOnGround(const SceneView& view) {
+  GreyPicture grey;
+  grey.at = std::make_shared<const ScaledImage>(SmallGrey(view, kSmallSide));
+  grey.ignore = view.MarkerMask(*grey.at);
+  grey.background = FitBackground(grey.at->pixels, grey.ignore);
+  return grey;
+}
+
+Rung GreyRung(const SceneView& view, const GreyPicture& grey) {
+  cv::Mat distance = DistanceFromBackground(grey.at->pixels, grey.background);
+  if (!grey.ignore.empty()) distance.setTo(0, grey.ignore);
+  return ThresholdAll(distance, grey.ignore, Candidate{{}, grey.at, {}, "grey"}, view.hints);
+}
+
+Rung CasterRung(const SceneView& view, const GreyPicture& grey, const cv::Mat& things) {
+  const Candidate like{{}, grey.at, {}, "caster"};
+  Rung rung;
+  rung.method = like.method;
+  const cv::Mat lightness = AboveBackground(grey.at->pixels, grey.background);
+  rung.distance = cv::abs(lightness);
+  const std::vector<cv::Mat> masks = MasksOfShadowCaster(lightness, things);
+  std::vector<Rung> seen = ParallelMap(static_cast<int>(masks.size()), [&](int i) {
+    return SeenIn(masks[static_cast<std::size_t>(i)], like, grey.ignore, view.hints);
+  });
+  for (Rung& mask : seen) Add(std::move(mask), &rung);
+  return rung;
 }
 
 Rung ColourRung(const SceneView& view, const ColourPictures& colour) {

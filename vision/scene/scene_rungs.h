@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/scene/background.h"
 #include "vision/scene/scene_candidate.h"
 #include "vision/scene/scene_view.h"
 
@@ -15,8 +17,20 @@ namespace bladecurve {
 inline constexpr int kSmallSide = 640;
 inline constexpr int kOutlineSide = 960;
 
+struct GreyPicture {
+  std::shared_ptr<const ScaledImage> at;
+  cv::Mat ignore;  // the markers
+  BackgroundModel background;
+};
+[[nodiscard]] GreyPicture GreyOnGround(const SceneView& view);
+
 // By lightness alone.
-[[nodiscard]] Rung GreyRung(const SceneView& view);
+[[nodiscard]] Rung GreyRung(const SceneView& view, const GreyPicture& grey);
+// Of things that stand out in grey (CV_8UC1), what casts a shadow of another tone (see
+// MasksOfShadowCaster); without candidates where nothing does.
+[[nodiscard]] Rung CasterRung(const SceneView& view,
+                              const GreyPicture& grey,
+                              const cv::Mat& things);
 // By colour and lightness (Lab).
 [[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
 // By what a shadow does not do to the background.
