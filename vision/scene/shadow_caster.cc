@@ -15,7 +15,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kBeyondAll = std::numeric_limits<double>::infinity();
 
 cv::Mat Opened(const cv::Mat& mask) {
   cv::Mat opened;
@@ -24,7 +24,7 @@ cv::Mat Opened(const cv::Mat& mask) {
 }
 
 struct Band {
-  double from = -kInfinity, to = kInfinity;  // lightness
+  double from = -kBeyondAll, to = kBeyondAll;  // lightness
 };
 
 // What stands out, within the box about it.
@@ -43,7 +43,7 @@ cv::Mat In(const Band& band, const Things& things) {
 
 // Where the lightness changes by less than half of what parts the tones.
 cv::Mat FlatIn(const cv::Mat& lightness, const Tones& tones) {
-  double least = kInfinity;
+  double least = kBeyondAll;
   for (std::size_t k = 1; k < tones.peaks.size(); ++k)
     least = std::min(least, tones.peaks[k] - tones.peaks[k - 1]);
   cv::Mat range;
