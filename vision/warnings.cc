@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -30,25 +29,21 @@ bool IsOverexposed(const LocatedBlade& blade) {
   return glares && EdgeSigmaPx(blade) > kKnownPx;
 }
 
-bool LiesOn(const std::array<Vector2d, 4>& paper, const Vector2d& point_px) {
-  std::array<cv::Point2f, 4> outline;
-  std::transform(paper.begin(), paper.end(), outline.begin(), [](const Vector2d& corner) {
-    return cv::Point2f(static_cast<float>(corner.x()), static_cast<float>(corner.y()));
-  });
-  const cv::Point2d at(point_px.x(), point_px.y());
-  return cv::pointPolygonTest(outline, at, false) >= 0;
-}
-
 // Whether a marker hid the distal end from scene finding, or a good part of the edge.
 bool IsBesideMarker(const LocatedBlade& blade, const std::vector<SeenMarker>& markers) {
   constexpr double kShare = 0.1;  // of the edge
   return std::any_of(markers.begin(), markers.end(), [&](const SeenMarker& marker) {
-    const std::array<Vector2d, 4> paper = PaperOf(marker);
+    std::vector<cv::Point2f> paper;
+    for (const Vector2d& corner : PaperOf(marker))
+      paper.emplace_back(static_cast<float>(corner.x()), static_cast<float>(corner.y()));
+    const auto lies_on_it = [&](const Vector2d& point_px) {
+      return cv::pointPolygonTest(paper, cv::Point2d(point_px.x(), point_px.y()), false) >= 0;
+    };
     const auto hidden =
         std::count_if(blade.used.begin(), blade.used.end(), [&](const LocatedEdgePoint& point) {
-          return LiesOn(paper, point.point_px);
+          return lies_on_it(point.point_px);
         });
-    return LiesOn(paper, blade.end.point_px) ||
+    return lies_on_it(blade.end.point_px) ||
            static_cast<double>(hidden) > kShare * static_cast<double>(blade.used.size());
   });
 }

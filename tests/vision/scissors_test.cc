@@ -21,14 +21,18 @@
 namespace bladecurve {
 namespace {
 
-// In direct sun the likeliest mask may follow a shadow's border.
-TEST(LocateScissors, MeasuresInAnotherMaskWhatTheLikeliestWasRefusedFor) {
-  const SceneSpec spec = RandomScene(10, Difficulty::kSun);
+PhotoMeasurement MeasureRendered(const SceneSpec& spec) {
   MeasureOptions options;
   options.scale.mm_per_px = spec.camera.mm_per_px;
   const std::filesystem::path file = ProcessFolder() / "picture.png";
   WritePng(file, RenderScene(spec).bgr);
-  const PhotoMeasurement result = MeasurePhoto(file, options);
+  return MeasurePhoto(file, options);
+}
+
+// In direct sun the likeliest mask may follow a shadow's border.
+TEST(LocateScissors, MeasuresInAnotherMaskWhatTheLikeliestWasRefusedFor) {
+  const SceneSpec spec = RandomScene(10, Difficulty::kSun);
+  const PhotoMeasurement result = MeasureRendered(spec);
   EXPECT_TRUE(std::any_of(result.plan.begin(), result.plan.end(), [](const StageRecord& record) {
     return record.stage == "scene-again" && record.ran && !record.why.empty();
   }));
@@ -41,11 +45,7 @@ TEST(LocateScissors, TellsBladesFromTheHardShadowsThatTheyCast) {
   constexpr double kClosePx = 1;
   for (const std::uint64_t seed : {4004012046, 4004012059}) {
     const SceneSpec spec = RandomScene(seed, Difficulty::kSun);
-    MeasureOptions options;
-    options.scale.mm_per_px = spec.camera.mm_per_px;
-    const std::filesystem::path file = ProcessFolder() / "sun.png";
-    WritePng(file, RenderScene(spec).bgr);
-    const PhotoMeasurement result = MeasurePhoto(file, options);
+    const PhotoMeasurement result = MeasureRendered(spec);
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(RmsToPath(result.upper_edge_px, truth.upper.px), kClosePx) << seed;
     EXPECT_LT(RmsToPath(result.lower_edge_px, truth.lower.px), kClosePx) << seed;

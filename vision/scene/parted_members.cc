@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
@@ -21,11 +20,8 @@ struct Part {
 };
 
 Part SeenAlong(const std::vector<cv::Point>& places, const cv::Mat& to_main) {
-  cv::Mat coordinates(static_cast<int>(places.size()), 2, CV_64FC1);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    coordinates.at<double>(static_cast<int>(i), 0) = places[i].x;
-    coordinates.at<double>(static_cast<int>(i), 1) = places[i].y;
-  }
+  cv::Mat coordinates;
+  cv::Mat(places).reshape(1).convertTo(coordinates, CV_64F);
   const cv::PCA pca(coordinates, cv::noArray(), cv::PCA::DATA_AS_ROW);
   const auto& axis = pca.eigenvectors;
   cv::Point2d direction(axis.at<double>(0, 0), axis.at<double>(0, 1));
@@ -43,11 +39,8 @@ Part SeenAlong(const std::vector<cv::Point>& places, const cv::Mat& to_main) {
   std::copy_if(places.begin(), places.end(), std::back_inserter(part.section), [&](const auto& p) {
     return along(p) > along(*last) - part.section_px;
   });
-  const cv::Point2d sum = std::accumulate(
-      part.section.begin(), part.section.end(), cv::Point2d(), [](const auto& a, const auto& p) {
-        return a + cv::Point2d(p);
-      });
-  part.middle = sum / static_cast<double>(part.section.size());
+  const cv::Scalar middle = cv::mean(part.section);
+  part.middle = {middle[0], middle[1]};
   return part;
 }
 

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "vision/image/disk.h"
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 #include "vision/scene/flood.h"
@@ -89,8 +90,8 @@ cv::Mat ShadowBlindDistance(const ColourPictures& colour) {
 // What is broader than printed lines, and the slender ends of that.
 cv::Mat WithoutLines(const cv::Mat& distance) {
   constexpr int kLinePx = 7, kEndsPx = 4;
-  const cv::Mat line = cv::getStructuringElement(cv::MORPH_ELLIPSE, {kLinePx, kLinePx});
-  const cv::Mat neighbours = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
+  const cv::Mat line = Disk(kLinePx);
+  const cv::Mat neighbours = Disk(3);
   cv::Mat broad;
   cv::morphologyEx(distance, broad, cv::MORPH_OPEN, line);
   for (int grown = 0; grown < kEndsPx; ++grown) {
@@ -104,11 +105,8 @@ cv::Mat WithoutLines(const cv::Mat& distance) {
 // pixel, which is outline.
 cv::Mat MaskAboveLevel(const cv::Mat& levels, double level, int speck_px) {
   cv::Mat mask = levels > level;
-  cv::morphologyEx(mask,
-                   mask,
-                   cv::MORPH_OPEN,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {speck_px, speck_px}));
-  cv::erode(mask, mask, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
+  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, Disk(speck_px));
+  cv::erode(mask, mask, Disk(3));
   return mask;
 }
 

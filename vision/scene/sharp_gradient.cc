@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "vision/image/disk.h"
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 
@@ -58,10 +59,7 @@ cv::Mat SharpGradient(const cv::Mat& lab) {
 
 cv::Mat Walls(const cv::Mat& sharp_gradient, int closed_px, const cv::Mat& ignore) {
   cv::Mat closed;
-  cv::morphologyEx(sharp_gradient,
-                   closed,
-                   cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_ELLIPSE, {closed_px, closed_px}));
+  cv::morphologyEx(sharp_gradient, closed, cv::MORPH_CLOSE, Disk(closed_px));
   cv::Mat walls = InUsualUnits(closed);
   if (!ignore.empty()) walls.setTo(0, ignore);
   return walls;

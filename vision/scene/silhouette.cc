@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/image/disk.h"
 #include "vision/image/nearest_pixel.h"
 
 namespace bladecurve {
 
 cv::Mat MaskAbove(const cv::Mat& distance, double threshold) {
   cv::Mat mask = distance > threshold;
-  const cv::Mat cross = cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3});
+  const cv::Mat cross = Disk(3);
   cv::morphologyEx(mask, mask, cv::MORPH_CLOSE, cross);
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, cross);
   return mask;
