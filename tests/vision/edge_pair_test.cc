@@ -23,6 +23,7 @@ namespace {
 
 using testing::FarFrom;
 using testing::Measured;
+using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithShadow;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -46,8 +47,9 @@ SceneSpec SceneWithShadowsInTheGap(double elevation_rad) {
 
 // A rendered photograph of known scale up to where its edges are located.
 struct Seen {
-  explicit Seen(const SceneSpec& spec)
-      : photo(Measured::PhotoOf(RenderScene(spec).bgr)), scale(FindScale(photo, ScaleOf(spec))) {
+  explicit Seen(const SceneSpec& spec) : Seen(spec, RenderScene(spec).bgr) {}
+  Seen(const SceneSpec& spec, const cv::Mat& picture)
+      : photo(Measured::PhotoOf(picture)), scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
   }
@@ -221,6 +223,23 @@ TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsTo
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << shadow;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << shadow;
+  }
+}
+
+// A narrow bevel that mirrors the ground, but darker, on the side that the sun shines on: it looks
+// like the ground in shadow, but the other blade's outer side casts none.
+TEST(LocateBlades, TakesNoBevelForAShadowThatTheOtherBladesOuterSideDoesNotCast) {
+  constexpr double kClosePx = 0.5, kDark = 0.35;  // of the ground's grey values
+  for (const double bevel_px : {3.0, 4.0}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(50 * kDegree);
+    spec.light.direction_rad += std::numbers::pi;
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = {0.5, 0.33, 0.2};
+    spec.texture = 0;
+    const cv::Mat picture = RetouchedAlongUpperEdge(
+        spec, 0.5, bevel_px, [](const cv::Vec3d& sheet, double, double) { return kDark * sheet; });
+    const BladeEdges edges = Seen(spec, picture).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << bevel_px;
   }
 }
 

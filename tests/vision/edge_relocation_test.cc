@@ -369,7 +369,7 @@ Measured WithLineWhereMirrored(double pivot_sigma_px) {
   constexpr double kAsidePx = 5, kBandPx = 40, kFaint = -8;
   const SceneSpec spec = SceneWithMarkers();
   Measured measured{spec};
-  measured.photo = Measured::PhotoOf(testing::RetouchedAlongUpperEdge(
+  measured.photo = Measured::PhotoOf(testing::BrightenedAlongUpperEdge(
       spec, -kBandPx, -2 * kAsidePx, [&](double, double) { return kFaint; }));
   const Vector2d& axis = measured.truth.axis_px;
   measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());

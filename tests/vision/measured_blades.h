@@ -64,14 +64,14 @@ inline cv::Mat Grained(cv::Mat picture) {
   return picture;
 }
 
-// The scissors retouched within a distance of the upper edge. light(depth_px, share): how much
-// brighter the sheet would look so far within the blade (negative: outside), there along the edge;
-// grey levels.
-template <typename Light>
+// The scissors retouched within a distance of the upper edge. retouch(sheet, depth_px, share): what
+// the sheet's grey levels look like so far within the blade (negative: outside), there along the
+// edge.
+template <typename Retouch>
 cv::Mat RetouchedAlongUpperEdge(const SceneSpec& spec,
                                 double from_px,
                                 double to_px,
-                                const Light& light) {
+                                const Retouch& retouch) {
   constexpr double kStepPx = 0.25, kBeyondPx = 3;
   const cv::Mat picture = RenderScene(spec).bgr;
   cv::Mat retouched = picture.clone();
@@ -90,18 +90,30 @@ cv::Mat RetouchedAlongUpperEdge(const SceneSpec& spec,
         const cv::Vec3b sheet =
             picture.at<cv::Vec3b>(pixel(on_edge + (std::abs(depth) + kBeyondPx) * outwards));
         retouched.at<cv::Vec3b>(pixel(on_edge - depth * outwards)) =
-            cv::Vec3b(cv::Vec3d(sheet) + cv::Vec3d::all(std::round(light(depth, share))));
+            cv::Vec3b(retouch(cv::Vec3d(sheet), depth, share));
       }
     }
   }
   return retouched;
 }
 
+// light(depth_px, share): how much brighter the sheet looks; grey levels.
+template <typename Light>
+cv::Mat BrightenedAlongUpperEdge(const SceneSpec& spec,
+                                 double from_px,
+                                 double to_px,
+                                 const Light& light) {
+  const auto brighter = [&](const cv::Vec3d& sheet, double depth, double share) -> cv::Vec3d {
+    return sheet + cv::Vec3d::all(std::round(light(depth, share)));
+  };
+  return RetouchedAlongUpperEdge(spec, from_px, to_px, brighter);
+}
+
 // The scissors with a bevel on the upper blade that mirrors the sheet but for a few grey levels,
 // brighter here and darker there, in a grainy picture.
 inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
   constexpr double kUnlike = 3, kWaves = 1.5;
-  return Grained(RetouchedAlongUpperEdge(spec, 0, kBevelPx, [](double, double share) {
+  return Grained(BrightenedAlongUpperEdge(spec, 0, kBevelPx, [](double, double share) {
     return kUnlike * std::cos(kWaves * 2 * std::numbers::pi * share);
   }));
 }
@@ -118,9 +130,7 @@ inline cv::Mat WithoutColours(const SceneSpec& spec) {
 struct Measured {
   explicit Measured(const SceneSpec& spec) : Measured(spec, RenderScene(spec).bgr) {}
   Measured(const SceneSpec& spec, const cv::Mat& picture)
-      : truth(TruthOf(spec)),
-        photo(PhotoOf(picture)),
-        scale(FindScale(photo, ScaleOf(spec))) {
+      : truth(TruthOf(spec)), photo(PhotoOf(picture)), scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
     for (SceneBlade* blade : {&scene.left, &scene.right}) blade->outer_px.clear();

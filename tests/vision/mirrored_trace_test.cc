@@ -17,11 +17,11 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using testing::BrightenedAlongUpperEdge;
 using testing::FarFrom;
 using testing::Grained;
 using testing::kBevelPx;
 using testing::Measured;
-using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithMarkers;
 using testing::WithMirroringBevel;
 
@@ -64,7 +64,7 @@ TEST(FindMirroredTrace, FindsTheBorderOfABevelAsDarkAsTheShadowBesideIt) {
     return -kDark * std::min(1.0, 1 + depth / kShadowPx);
   };
   const Found found =
-      FindIn(spec, Grained(RetouchedAlongUpperEdge(spec, -kShadowPx, kBevelPx, light)));
+      FindIn(spec, Grained(BrightenedAlongUpperEdge(spec, -kShadowPx, kBevelPx, light)));
   EXPECT_TRUE(found.any);
   EXPECT_LT(found.off_px, kClosePx);
 }
@@ -74,7 +74,7 @@ TEST(FindMirroredTrace, FindsTheBorderOfANarrowBevel) {
   const SceneSpec spec = SceneWithMarkers();
   const auto light = [](double, double) { return -kDarker; };
   const Found found =
-      FindIn(spec, Grained(RetouchedAlongUpperEdge(spec, 0, kNarrowPx, light)), kNarrowPx);
+      FindIn(spec, Grained(BrightenedAlongUpperEdge(spec, 0, kNarrowPx, light)), kNarrowPx);
   EXPECT_TRUE(found.any);
   EXPECT_LT(found.off_px, kClosePx);
 }

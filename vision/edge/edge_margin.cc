@@ -163,9 +163,10 @@ std::optional<double> TrailPx(const cv::Mat& grey, const ToneCurve& tone, const 
 
 std::optional<Band> BandBeside(const cv::Mat& grey,
                                const ToneCurve& tone,
-                               const LocatedEdge& edge) {
-  const auto light = TypicalLight(grey, tone, edge, 0.5 * edge.rival_px);
-  return light ? std::optional(Band{std::abs(edge.rival_px), *light}) : std::nullopt;
+                               const LocatedEdge& edge,
+                               double line_px) {
+  const auto light = TypicalLight(grey, tone, edge, 0.5 * line_px);
+  return light ? std::optional(Band{std::abs(line_px), *light}) : std::nullopt;
 }
 
 bool MayLieAlong(const cv::Mat& grey,

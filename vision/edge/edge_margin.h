@@ -39,16 +39,17 @@ struct Margin {
                                             const ToneCurve& tone,
                                             const LocatedEdge& edge);
 
-// What lies between an edge and its rival.
+// What lies between an edge and a line beside it.
 struct Band {
   double width_px = 0;
   double light = 0;  // linear, half way between the two
 };
 
-// std::nullopt out of the picture.
+// As far as `line_px` out of the edge, or within. std::nullopt out of the picture.
 [[nodiscard]] std::optional<Band> BandBeside(const cv::Mat& grey,
                                              const ToneCurve& tone,
-                                             const LocatedEdge& edge);
+                                             const LocatedEdge& edge,
+                                             double line_px);
 
 // Whether a strip about as light as the band, and a third as wide, its blurred sides left out, lies
 // along another edge on either side: if it does not, and that faces the same way, the band is no

@@ -60,15 +60,6 @@ Vector2d TypicalNormal(const LocatedEdge& edge) {
   return edge.points[edge.points.size() / 2].normal;
 }
 
-// Whether the shank would have to cast a shadow like the dark band beside the edge, and does not.
-bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left) {
-  constexpr double kSameWay = 0.94;  // cosine
-  const std::optional<LocatedEdge> shank = view.ShankSide(left);
-  if (!shank || TypicalNormal(*shank).dot(TypicalNormal(edge)) < kSameWay) return false;
-  const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge);
-  return band && !MayLieAlong(view.grey(), view.tone(), *shank, *band);
-}
-
 // Faint bands are not worth the colours.
 DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
   const std::vector<Vector2d>& other_px = BladeOf(view.scene(), !left).inner_px;
@@ -77,13 +68,24 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
   const DarkBand band = clear ? JudgeDarkBand(view.Colours(), view.tone(), edge, width_px, other_px)
                               : JudgeByPattern(view.grey(), view.tone(), edge, other_px);
   const bool matters = clear || is_inner;
-  if (band != DarkBand::kUnknown || !matters) return band;
-  return IsRound(view, edge, left) || CastsNoShadow(view, edge, left) ? DarkBand::kMetal : band;
+  if (band == DarkBand::kMetal || !matters) return band;
+  if (CastsNoShadow(view, edge, left, edge.rival_px)) return DarkBand::kMetal;
+  return band == DarkBand::kUnknown && IsRound(view, edge, left) ? DarkBand::kMetal : band;
 }
 
 }  // namespace
 
 bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
+
+bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
+  constexpr double kSameWay = 0.94;  // cosine
+  const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge, line_px);
+  const auto lacks_it = [&](const std::optional<LocatedEdge>& side) {
+    return side && TypicalNormal(*side).dot(TypicalNormal(edge)) > kSameWay &&
+           !MayLieAlong(view.grey(), view.tone(), *side, *band);
+  };
+  return band && (lacks_it(view.ShankSide(left)) || lacks_it(view.OuterSide(!left)));
+}
 
 LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
   constexpr double kDoubt = 0.5;  // of the band; in one rendered scene of five the edge is beyond

@@ -12,6 +12,14 @@ namespace bladecurve {
 // between the two: the ground in shadow, or a bevel.
 [[nodiscard]] bool HasDarkBand(const LocatedEdge& edge);
 
+// Whether the band between an edge and the line `line_px` out of it, or within, cannot be a shadow
+// that the blade casts: its own shank, or the other blade's outer side, which face the same way,
+// would have to cast one like it, and do not.
+[[nodiscard]] bool CastsNoShadow(const BladeView& view,
+                                 const LocatedEdge& edge,
+                                 bool left,
+                                 double line_px);
+
 // Of the two sides of a dark band, the inner one if it is the ground in shadow, the outer one if it
 // is metal: by colour, by the ground's pattern, by what the blade's other side and its shank show.
 // Within a band that is either, the edge is in doubt. The edge as it is where it has no band.

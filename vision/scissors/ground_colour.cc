@@ -8,6 +8,7 @@
 
 #include "vision/edge/colour_border.h"
 #include "vision/parallel.h"
+#include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/scene_guess.h"
 
@@ -71,6 +72,8 @@ void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
   const auto border = colours.BorderAlong(*edge);
   if (!border) return LeavePassingShadow(colours, edge);
   if (std::abs(border->offset_px) < kFarPx) return;
+  const bool is_within = border->offset_px < 0 && TypicalContrast(*edge) > 0;
+  if (is_within && CastsNoShadow(colours.view, *edge, colours.left, border->offset_px)) return;
   if (auto there = colours.EdgeAt(*border, *edge)) {
     *edge = *std::move(there);
     return;
