@@ -107,5 +107,15 @@ TEST(ValidateScene, MeasuresHardScenes) {
   }
 }
 
+// In the middle of a shadow lie lines of the drape's weave, clear and faint: one was taken for the
+// shadow's border, and that for the blade's, 18 px off.
+TEST(ValidateScene, TakesNoLineOfTheWeaveForABorder) {
+  constexpr double kClosePx = 1;
+  const ValidationRow row =
+      ValidateScene(MakeValidationScene(254, 4004, Difficulty::kSun), ProcessFolder());
+  ASSERT_TRUE(row.measured()) << row.detail;
+  EXPECT_LT(row.Of(Quantity::kEdge).size, kClosePx);
+}
+
 }  // namespace
 }  // namespace bladecurve

@@ -27,14 +27,19 @@ bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
   return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= narrowest;
 }
 
-// The edge once more along one side of the dark band beside it, if it is seen there.
+// The edge once more along one side of the dark band beside it, if it is seen there, and not just
+// a faint line of the ground's.
 std::optional<LocatedEdge> AlongSide(const BladeView& view,
                                      std::vector<Vector2d> side_px,
                                      const LocatedEdge& edge,
                                      bool left) {
   constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
-  return view.InGrey(
-      {std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+  constexpr double kAsHigh = 0.05;               // of the edge's step
+  std::optional<LocatedEdge> along =
+      view.InGrey({std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+  const bool seen =
+      along && std::abs(TypicalContrast(*along)) > kAsHigh * std::abs(TypicalContrast(edge));
+  return seen ? std::move(along) : std::nullopt;
 }
 
 // The edge along the outer side of the dark band beside it, if it is seen there.
