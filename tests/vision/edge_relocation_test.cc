@@ -254,6 +254,25 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
+// The edges still differ, and more than the pivot accounts for: one may lie between two lines.
+TEST(RelocateUnlikeEdges, IsAsUnsureOfTheDoubtfulEdgeAsTheEdgesStillDiffer) {
+  constexpr double kAsidePx = 0.8, kSurePx = 0.1;
+  const auto sigma_px = [&](double pivot_sigma_px) {
+    Measured measured{SceneWithMarkers()};
+    measured.MakeClear(&measured.blades.lower);
+    measured.Lose(&measured.blades.upper, kLittlePx);
+    const Vector2d& axis = measured.truth.axis_px;
+    measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
+    measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+    measured.Compare();
+    Relocate(&measured);
+    EXPECT_NE(measured.blades.upper.moved, "");
+    return measured.blades.upper.edge.common_sigma_px;
+  };
+  EXPECT_GT(sigma_px(kSurePx), kAsidePx);
+  EXPECT_LT(sigma_px(kAsidePx), kAsidePx / 2);
+}
+
 // What is just vague may be a faint border; the clearer line beside it may be a bevel's.
 TEST(RelocateUnlikeEdges, LeavesAVagueEdgeThatHasNoRival) {
   constexpr double kAsidePx = 1, kVaguePx = 1.2;

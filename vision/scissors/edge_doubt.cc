@@ -25,12 +25,6 @@ bool PassUnlike(const Pivot& pivot) {
   return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
 }
 
-// Less certain by that much, standard, for reasons of its own.
-void AddSigma(LocatedEdge* edge, double off_px) {
-  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
-  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
-}
-
 }  // namespace
 
 bool IsClear(const LocatedEdge& edge) {
@@ -41,6 +35,11 @@ bool IsClear(const LocatedEdge& edge) {
 bool IsDoubtful(const LocatedEdge& edge) {
   constexpr double kDoubt = 0.75;  // ambiguity
   return edge.ambiguity > kDoubt || edge.common_sigma_px > kVaguePx;
+}
+
+void AddSigma(LocatedEdge* edge, double off_px) {
+  edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
+  edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);
 }
 
 void Doubt(LocatedEdge* edge, double off_px) {

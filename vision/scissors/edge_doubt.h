@@ -14,6 +14,9 @@ namespace bladecurve {
 [[nodiscard]] bool IsClear(const LocatedEdge& edge);
 [[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
 
+// Makes an edge less certain by that much, standard, for reasons of its own.
+void AddSigma(LocatedEdge* edge, double off_px);
+
 // Makes an edge ambiguous, and less certain by so much: it may lie that far off.
 void Doubt(LocatedEdge* edge, double off_px);
 

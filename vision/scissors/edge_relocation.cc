@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/edge_relocation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -76,19 +77,25 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
 }
 
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
-// just vague, without a rival, stays: a clearer line close by is a bevel's.
+// just vague, without a rival, stays: a clearer line close by is a bevel's. As uncertain as the two
+// still differ, but for what the pivot accounts for: the border may lie between the lines.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;   // of the ambiguity before
   constexpr double kRival = 0.25;  // ambiguity of edges that have one
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
   if (doubtful.edge.ambiguity < kRival) return;
-  const std::optional<RelocatedBlade> found =
+  std::optional<RelocatedBlade> found =
       LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
   if (!found) return;
-  const LocatedEdge &before = doubtful.edge, &after = found->blade.edge;
-  if (after.ambiguity < kLess * before.ambiguity && after.common_sigma_px <= before.common_sigma_px)
-    Replace(*found, kWhereMirrored, &doubtful);
+  const LocatedEdge& before = doubtful.edge;
+  LocatedEdge& after = found->blade.edge;
+  if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
+    return;
+  const double off_px = ShareInPx(std::abs(found->asymmetry), pivot, *blades);
+  const double by_pivot_px = PartedByPivotPx(pivot, *blades);
+  AddSigma(&after, std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px)));
+  Replace(*found, kWhereMirrored, &doubtful);
 }
 
 // One of two edges that pass the pivot alike but are unlike in shape, as those of hardly any blades
