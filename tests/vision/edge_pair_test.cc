@@ -227,8 +227,8 @@ TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsTo
 }
 
 // A narrow bevel that mirrors the ground, but darker, on the side that the sun shines on: it looks
-// like the ground in shadow, but the other blade's outer side casts none.
-TEST(LocateBlades, TakesNoBevelForAShadowThatTheOtherBladesOuterSideDoesNotCast) {
+// like the ground in shadow, but neither its shank nor the other blade's outer side casts one.
+TEST(LocateBlades, TakesNoBevelForAShadowThatNothingElseCasts) {
   constexpr double kClosePx = 0.5, kDark = 0.35;  // of the ground's grey values
   for (const double bevel_px : {3.0, 4.0}) {
     SceneSpec spec = SceneWithShadowOnOneSide(50 * kDegree);

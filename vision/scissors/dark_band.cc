@@ -65,6 +65,20 @@ Vector2d TypicalNormal(const LocatedEdge& edge) {
   return edge.points[edge.points.size() / 2].normal;
 }
 
+constexpr double kSameWay = 0.94, kAboutSameWay = 0.88;  // cosines
+
+// Whether a side of the scissors that faces as the edge does, and would have to cast a shadow like
+// the band between the edge and the line `line_px` out of it, or within, casts none.
+bool Lacks(const BladeView& view,
+           const std::optional<LocatedEdge>& side,
+           const LocatedEdge& edge,
+           double line_px,
+           double facing = kSameWay) {
+  if (!side || TypicalNormal(*side).dot(TypicalNormal(edge)) < facing) return false;
+  const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge, line_px);
+  return band && !MayLieAlong(view.grey(), view.tone(), *side, *band);
+}
+
 // Faint bands are not worth the colours.
 DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
   const std::vector<Vector2d>& other_px = BladeOf(view.scene(), !left).inner_px;
@@ -74,8 +88,11 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
                               : JudgeByPattern(view.grey(), view.tone(), edge, other_px);
   const bool matters = clear || is_inner;
   if (band == DarkBand::kMetal || !matters) return band;
-  if (CastsNoShadow(view, edge, left, edge.rival_px)) return DarkBand::kMetal;
-  return band == DarkBand::kUnknown && IsRound(view, edge, left) ? DarkBand::kMetal : band;
+  const bool is_metal =
+      band == DarkBand::kShadow
+          ? CastsNoShadow(view, edge, left, edge.rival_px)
+          : IsRound(view, edge, left) || Lacks(view, view.ShankSide(left), edge, edge.rival_px);
+  return is_metal ? DarkBand::kMetal : band;
 }
 
 }  // namespace
@@ -83,13 +100,8 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
 bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
 
 bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
-  constexpr double kSameWay = 0.94;  // cosine
-  const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge, line_px);
-  const auto lacks_it = [&](const std::optional<LocatedEdge>& side) {
-    return side && TypicalNormal(*side).dot(TypicalNormal(edge)) > kSameWay &&
-           !MayLieAlong(view.grey(), view.tone(), *side, *band);
-  };
-  return band && (lacks_it(view.ShankSide(left)) || lacks_it(view.OuterSide(!left)));
+  return Lacks(view, view.ShankSide(left), edge, line_px) &&
+         Lacks(view, view.OuterSide(!left), edge, line_px, kAboutSameWay);
 }
 
 LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {

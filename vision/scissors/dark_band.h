@@ -13,8 +13,8 @@ namespace bladecurve {
 [[nodiscard]] bool HasDarkBand(const LocatedEdge& edge);
 
 // Whether the band between an edge and the line `line_px` out of it, or within, cannot be a shadow
-// that the blade casts: its own shank, or the other blade's outer side, which face the same way,
-// would have to cast one like it, and do not.
+// that the blade casts: its own shank and the other blade's outer side face the same way, and would
+// both have to cast one like it, and neither does.
 [[nodiscard]] bool CastsNoShadow(const BladeView& view,
                                  const LocatedEdge& edge,
                                  bool left,
