@@ -254,13 +254,15 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
-// The edges still differ, and more than the pivot accounts for: one may lie between two lines.
+// The edges still differ, more than the pivot accounts for and towards the doubtful one's rival: it
+// may lie between the two lines.
 TEST(RelocateUnlikeEdges, IsAsUnsureOfTheDoubtfulEdgeAsTheEdgesStillDiffer) {
-  constexpr double kAsidePx = 0.8, kSurePx = 0.1;
-  const auto sigma_px = [&](double pivot_sigma_px) {
+  constexpr double kAsidePx = 0.8, kSurePx = 0.1, kWithinPx = -6, kBeyondPx = 6;
+  const auto sigma_px = [&](double pivot_sigma_px, double rival_px) {
     Measured measured{SceneWithMarkers()};
     measured.MakeClear(&measured.blades.lower);
     measured.Lose(&measured.blades.upper, kLittlePx);
+    measured.blades.upper.edge.rival_px = rival_px;
     const Vector2d& axis = measured.truth.axis_px;
     measured.pivot.point_px += kAsidePx * Vector2d(-axis.y(), axis.x());
     measured.pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
@@ -269,8 +271,9 @@ TEST(RelocateUnlikeEdges, IsAsUnsureOfTheDoubtfulEdgeAsTheEdgesStillDiffer) {
     EXPECT_NE(measured.blades.upper.moved, "");
     return measured.blades.upper.edge.common_sigma_px;
   };
-  EXPECT_GT(sigma_px(kSurePx), kAsidePx);
-  EXPECT_LT(sigma_px(kAsidePx), kAsidePx / 2);
+  EXPECT_GT(sigma_px(kSurePx, kWithinPx), kAsidePx);
+  EXPECT_LT(sigma_px(kSurePx, kBeyondPx), kAsidePx / 2);
+  EXPECT_LT(sigma_px(kAsidePx, kWithinPx), kAsidePx / 2);
 }
 
 // What is just vague may be a faint border; the clearer line beside it may be a bevel's.

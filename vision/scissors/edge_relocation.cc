@@ -76,9 +76,16 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   }
 }
 
+// By how much edges of that asymmetry differ beyond what the pivot accounts for. px
+double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades) {
+  const double off_px = ShareInPx(asymmetry, pivot, blades);
+  const double by_pivot_px = PartedByPivotPx(pivot, blades);
+  return std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px));
+}
+
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
-// just vague, without a rival, stays: a clearer line close by is a bevel's. As uncertain as the two
-// still differ, but for what the pivot accounts for: the border may lie between the lines.
+// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror the
+// other one only if it lay nearer to its rival, the border may lie between the two lines.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;   // of the ambiguity before
   constexpr double kRival = 0.25;  // ambiguity of edges that have one
@@ -92,9 +99,8 @@ void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blad
   LocatedEdge& after = found->blade.edge;
   if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
     return;
-  const double off_px = ShareInPx(std::abs(found->asymmetry), pivot, *blades);
-  const double by_pivot_px = PartedByPivotPx(pivot, *blades);
-  AddSigma(&after, std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px)));
+  const bool towards_rival = LiesInwards(doubtful, pivot) == (before.rival_px > 0);
+  if (towards_rival) AddSigma(&after, BeyondPivotPx(found->asymmetry, pivot, *blades));
   Replace(*found, kWhereMirrored, &doubtful);
 }
 
