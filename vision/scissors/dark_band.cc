@@ -69,11 +69,11 @@ constexpr double kSameWay = 0.94, kAboutSameWay = 0.88;  // cosines
 
 // Whether a side of the scissors that faces as the edge does, and would have to cast a shadow like
 // the band between the edge and the line `line_px` out of it, or within, casts none.
-bool Lacks(const BladeView& view,
-           const std::optional<LocatedEdge>& side,
-           const LocatedEdge& edge,
-           double line_px,
-           double facing = kSameWay) {
+bool CastsNone(const BladeView& view,
+               const std::optional<LocatedEdge>& side,
+               const LocatedEdge& edge,
+               double line_px,
+               double facing = kSameWay) {
   if (!side || TypicalNormal(*side).dot(TypicalNormal(edge)) < facing) return false;
   const std::optional<Band> band = BandBeside(view.grey(), view.tone(), edge, line_px);
   return band && !MayLieAlong(view.grey(), view.tone(), *side, *band);
@@ -91,7 +91,7 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
   const bool is_metal =
       band == DarkBand::kShadow
           ? CastsNoShadow(view, edge, left, edge.rival_px)
-          : IsRound(view, edge, left) || Lacks(view, view.ShankSide(left), edge, edge.rival_px);
+          : IsRound(view, edge, left) || CastsNone(view, view.ShankSide(left), edge, edge.rival_px);
   return is_metal ? DarkBand::kMetal : band;
 }
 
@@ -100,8 +100,8 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
 bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
 
 bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
-  return Lacks(view, view.ShankSide(left), edge, line_px) &&
-         Lacks(view, view.OuterSide(!left), edge, line_px, kAboutSameWay);
+  return CastsNone(view, view.ShankSide(left), edge, line_px) &&
+         CastsNone(view, view.OuterSide(!left), edge, line_px, kAboutSameWay);
 }
 
 LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
