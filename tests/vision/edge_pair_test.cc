@@ -259,6 +259,18 @@ TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
   }
 }
 
+// Nor is that a shaded side where the other shank has a far narrower one.
+TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsFarWiderThanTheOther) {
+  constexpr double kClosePx = 0.3;
+  for (const double elevation_rad : {35 * kDegree, 45 * kDegree}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(elevation_rad);
+    spec.theta_rad = 40 * kDegree;
+    spec.light.direction_rad = 190 * kDegree;
+    const BladeEdges edges = Seen(spec).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << elevation_rad;
+  }
+}
+
 // Round shanks are as dark along their sides as the bevels: the first's alike, the second's, black
 // ones, on one side and not as far as the bevel, the third's further along one side.
 TEST(LocateBlades, TakesNoBevelForAShadowBecauseOfHowItsShankIsShaded) {
@@ -469,6 +481,26 @@ TEST(LocateBlades, TakeABandForABevelThatIsNoShadowOfTheShanks) {
   const LocatedEdge shadow =
       upper([&](PaintedBlades* blades) { blades->PaintShank(kPlate, 0.5 * kBandPx, kBand); });
   EXPECT_GT(shadow.ambiguity, kDoubtful);
+}
+
+// Twice as narrow along the other blade's outer side, and a little narrower along the shank: either
+// alone might be something else.
+TEST(LocateBlades, TakeABandForAShadowThatShankAndOtherBladeCastNarrower) {
+  constexpr double kBandPx = 18, kShankPx = 15, kOuterPx = 8, kBlurPx = 0.8, kOffPx = 0.5;
+  constexpr uchar kGround = 200, kBand = 90, kPlate = 165;
+  const auto off_px = [&](double outer_px) {
+    PaintedBlades blades(kGround);
+    blades.Paint(PaintedBlades::kLower, PaintedBlades::kBladePx + outer_px, kBand);
+    blades.Paint(PaintedBlades::kLower, PaintedBlades::kBladePx, kPlate);
+    blades.Paint(PaintedBlades::kUpper, kBandPx, kBand);
+    blades.Paint(PaintedBlades::kUpper, -PaintedBlades::kBladePx, kPlate);
+    blades.PaintShank(kPlate, kShankPx, kBand);
+    const LocatedEdge upper = blades.Locate(PaintedBlades::kCrossing + 20, kBlurPx).upper;
+    const Eigen::Vector2d middle = upper.points[upper.points.size() / 2].trend_px;
+    return middle.y() - PaintedBlades::At(middle.x(), PaintedBlades::kUpper).y();
+  };
+  EXPECT_GT(off_px(0), kBandPx / 2) << "something else settles it";
+  EXPECT_NEAR(off_px(kOuterPx), 0, kOffPx);
 }
 
 // A bevel about as dark as the ground seems to part the blades as far as their joint.

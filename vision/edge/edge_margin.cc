@@ -84,11 +84,11 @@ std::optional<Margin> BrightMargin(const Across& light_at,
 
 bool WithinFactor(double a, double b, double factor) { return a < factor * b && b < factor * a; }
 
-bool AreAlike(const Margin& a, const Margin& b, double same_light, double same_ground) {
-  constexpr double kSameWidth = 2;
+bool AreAlike(
+    const Margin& a, const Margin& b, double same_light, double same_ground, double same_width) {
   return a.than_blade == b.than_blade && WithinFactor(a.light, b.light, same_light) &&
          WithinFactor(a.ground, b.ground, same_ground) &&
-         WithinFactor(a.width_px, b.width_px, kSameWidth);
+         WithinFactor(a.width_px, b.width_px, same_width);
 }
 
 }  // namespace
@@ -188,14 +188,14 @@ bool MayLieAlong(const cv::Mat& grey,
   return false;
 }
 
-bool AreOneShading(const Margin& a, const Margin& b) {
+bool AreOneShading(const Margin& a, const Margin& b, double same_width) {
   constexpr double kSameLight = 1.6, kSameGround = 1.25;
-  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround);
+  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround, same_width);
 }
 
-bool AreOneShadow(const Margin& a, const Margin& b) {
+bool AreOneShadow(const Margin& a, const Margin& b, double same_width) {
   constexpr double kSameLight = 1.12, kSameGround = 1.06;
-  return AreAlike(a, b, kSameLight, kSameGround);
+  return AreAlike(a, b, kSameLight, kSameGround, same_width);
 }
 
 }  // namespace bladecurve
