@@ -103,16 +103,14 @@ TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
   })) << "shading";
 }
 
-TEST(BandBeside, LiesBetweenAnEdgeAndItsRival) {
-  LocatedEdge edge = UprightEdge();
-  edge.rival_px = -12;
+TEST(BandBeside, LiesBetweenAnEdgeAndALineWithin) {
+  const LocatedEdge edge = UprightEdge();
   const cv::Mat grey = PictureOf([](double d) { return WithMargin(d, 12); });
-  const auto band = BandBeside(grey, testing::GammaCurve(1), edge);
+  const auto band = BandBeside(grey, testing::GammaCurve(1), edge, -12);
   ASSERT_TRUE(band);
   EXPECT_EQ(band->width_px, 12);
   EXPECT_NEAR(band->light, kDark / 255, 0.02);
-  edge.rival_px = 1000;
-  EXPECT_FALSE(BandBeside(grey, testing::GammaCurve(1), edge)) << "out of the picture";
+  EXPECT_FALSE(BandBeside(grey, testing::GammaCurve(1), edge, 1000)) << "out of the picture";
 }
 
 // Cut off at black, light says nothing of what is darker.

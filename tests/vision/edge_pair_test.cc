@@ -259,18 +259,6 @@ TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
   }
 }
 
-// Nor is that a shaded side where the other shank has a far narrower one.
-TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsFarWiderThanTheOther) {
-  constexpr double kClosePx = 0.3;
-  for (const double elevation_rad : {35 * kDegree, 45 * kDegree}) {
-    SceneSpec spec = SceneWithShadowOnOneSide(elevation_rad);
-    spec.theta_rad = 40 * kDegree;
-    spec.light.direction_rad = 190 * kDegree;
-    const BladeEdges edges = Seen(spec).Locate();
-    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << elevation_rad;
-  }
-}
-
 // Round shanks are as dark along their sides as the bevels: the first's alike, the second's, black
 // ones, on one side and not as far as the bevel, the third's further along one side.
 TEST(LocateBlades, TakesNoBevelForAShadowBecauseOfHowItsShankIsShaded) {

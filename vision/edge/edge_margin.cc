@@ -188,9 +188,9 @@ bool MayLieAlong(const cv::Mat& grey,
   return false;
 }
 
-bool AreOneShading(const Margin& a, const Margin& b, double same_width) {
-  constexpr double kSameLight = 1.6, kSameGround = 1.25;
-  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround, same_width);
+bool AreOneShading(const Margin& a, const Margin& b) {
+  constexpr double kSameLight = 1.6, kSameGround = 1.25, kSameWidth = 2;
+  return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround, kSameWidth);
 }
 
 bool AreOneShadow(const Margin& a, const Margin& b, double same_width) {

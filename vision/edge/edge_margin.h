@@ -60,8 +60,8 @@ struct Band {
                                const Band& band);
 
 // Whether margins along the two sides of a blade are how light falls off towards the borders of a
-// rounded one: dark, alike in light and, to that factor, in width, before the same ground.
-[[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b, double same_width = 2);
+// rounded one: dark, alike in light and width, before the same ground.
+[[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b);
 
 // Whether margins of two edges that face the same way are one shadow: alike in light and, to
 // that factor, in width, before the same ground. Bevels are ground on cutting edges, not on the

@@ -53,19 +53,18 @@ std::optional<Margin> MarginAlong(const BladeView& view,
 }
 
 // Whether a margin lies along the blade's own shank as well, which is no lower and casts one at
-// least as wide, and none like that along the other shank: light falls off towards the sides of
+// least as wide, and no dark one along the other shank: light falls off towards the sides of
 // rounded ones, and a bevel may be as dark as that.
 bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
-  constexpr double kLeastPx = 6;       // narrower margins may be blur on any shank
-  constexpr double kAsWide = 0.95;     // of the margin
-  constexpr double kShadedAsWide = 3;  // a factor; light may fall more on one side
+  constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
+  constexpr double kAsWide = 0.95;  // of the margin
   if (margin.width_px <= kLeastPx) return false;
   const auto of_shank = MarginAlong(view, view.ShankSide(left), left);
   if (!of_shank || of_shank->width_px < kAsWide * margin.width_px ||
       !AreOneShadow(margin, *of_shank))
     return false;
   const auto of_other = MarginAlong(view, view.ShankSide(!left), !left);
-  return !of_other || !AreOneShading(*of_shank, *of_other, kShadedAsWide);
+  return !of_other || of_other->than_blade != Shadow::kDarker;
 }
 
 // Whether a margin lies along the other blade's outer side as well. Where it lies along the own
