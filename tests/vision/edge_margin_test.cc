@@ -95,6 +95,21 @@ TEST(FindDarkLine, MeasuresWhatIsAsNarrowAsBlur) {
   }
 }
 
+TEST(EndsSharply, TellsShadowsFromShading) {
+  constexpr double kWidthPx = 12;
+  const auto ends_sharply = [](const std::function<double(double)>& light) {
+    const cv::Mat grey = PictureOf(light);
+    const ToneCurve tone = testing::GammaCurve(1);
+    const auto margin = FindMargin(grey, tone, UprightEdge(), kBladePx);
+    EXPECT_TRUE(margin);
+    return margin && EndsSharply(grey, tone, UprightEdge(), *margin);
+  };
+  EXPECT_TRUE(ends_sharply([](double d) { return WithMargin(d, kWidthPx); }));
+  EXPECT_FALSE(ends_sharply([](double d) {
+    return kDark + (1 - std::exp(d / kWidthPx)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
+  })) << "shading";
+}
+
 TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 0); }));
   EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 6); })) << "a margin";

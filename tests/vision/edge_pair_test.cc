@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <tuple>
 #include <utility>
 
 #include "measured_blades.h"
@@ -256,6 +257,20 @@ TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
     const SceneTruth truth = TruthOf(spec);
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << heading_rad;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << heading_rad;
+  }
+}
+
+// Light from nearly along one blade casts narrow shadows along the other shank, too: no shading,
+// which would fade.
+TEST(LocateBlades, TakesNoShadowForBladeThatEndsSharplyAlongItsShank) {
+  constexpr double kClosePx = 0.3;
+  for (const auto& [theta_deg, direction_deg, elevation_deg] :
+       {std::tuple(35, 190, 45), std::tuple(40, 190, 35), std::tuple(40, 200, 45)}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(elevation_deg * kDegree);
+    spec.theta_rad = theta_deg * kDegree;
+    spec.light.direction_rad = direction_deg * kDegree;
+    const BladeEdges edges = Seen(spec).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << theta_deg;
   }
 }
 

@@ -112,6 +112,25 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
 }
 
+bool EndsSharply(const cv::Mat& grey,
+                 const ToneCurve& tone,
+                 const LocatedEdge& edge,
+                 const Margin& margin) {
+  constexpr double kDark = 1.1, kBright = 1.3;  // times the margin's light
+  constexpr double kPerBlur = 3;                // from the one to the other
+  constexpr double kStepPx = 0.5, kBehindPx = 6;
+  std::optional<double> dark_px;  // the last place
+  for (double across = kNearestPx; across <= margin.width_px + kBehindPx; across += kStepPx) {
+    const double light = TypicalLight(grey, tone, edge, -across).value_or(0);
+    if (light < kDark * margin.light) {
+      dark_px = across;
+    } else if (dark_px && light > kBright * margin.light) {
+      return across - *dark_px <= kPerBlur * std::max(1.0, BlurOr(edge, 1));
+    }
+  }
+  return false;
+}
+
 std::optional<Margin> FindDarkLine(const cv::Mat& grey,
                                    const ToneCurve& tone,
                                    const LocatedEdge& edge,

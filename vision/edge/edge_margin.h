@@ -24,6 +24,13 @@ struct Margin {
                                                const LocatedEdge& edge,
                                                double blade_px);
 
+// Whether a dark margin ends as sharply as ground in shadow does at metal. Light that falls off
+// towards the side of a rounded one does so all the way.
+[[nodiscard]] bool EndsSharply(const cv::Mat& grey,
+                               const ToneCurve& tone,
+                               const LocatedEdge& edge,
+                               const Margin& margin);
+
 // A dark line along the inner side of an edge, narrower than what FindMargin tells from blur.
 // std::nullopt where there is none.
 [[nodiscard]] std::optional<Margin> FindDarkLine(const cv::Mat& grey,

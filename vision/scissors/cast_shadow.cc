@@ -53,18 +53,20 @@ std::optional<Margin> MarginAlong(const BladeView& view,
 }
 
 // Whether a margin lies along the blade's own shank as well, which is no lower and casts one at
-// least as wide, and no dark one along the other shank: light falls off towards the sides of
-// rounded ones, and a bevel may be as dark as that.
+// least as wide. A dark one along the other shank as well may mean that light falls off towards the
+// sides of rounded ones, and a bevel may be as dark as that; but it falls off slowly there.
 bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
   constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
   constexpr double kAsWide = 0.95;  // of the margin
   if (margin.width_px <= kLeastPx) return false;
-  const auto of_shank = MarginAlong(view, view.ShankSide(left), left);
+  const auto shank = view.ShankSide(left);
+  const auto of_shank = MarginAlong(view, shank, left);
   if (!of_shank || of_shank->width_px < kAsWide * margin.width_px ||
       !AreOneShadow(margin, *of_shank))
     return false;
   const auto of_other = MarginAlong(view, view.ShankSide(!left), !left);
-  return !of_other || of_other->than_blade != Shadow::kDarker;
+  return !of_other || of_other->than_blade != Shadow::kDarker ||
+         EndsSharply(view.grey(), view.tone(), *shank, *of_shank);
 }
 
 // Whether a margin lies along the other blade's outer side as well. Where it lies along the own
