@@ -95,6 +95,14 @@ TEST(FindDarkLine, MeasuresWhatIsAsNarrowAsBlur) {
   }
 }
 
+TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
+  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 0); }));
+  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 6); })) << "a margin";
+  EXPECT_FALSE(LineIn([](double d) {
+    return kDark + (1 - std::exp(d / 4)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
+  })) << "shading";
+}
+
 TEST(EndsSharply, TellsShadowsFromShading) {
   constexpr double kWidthPx = 12;
   const auto ends_sharply = [](const std::function<double(double)>& light) {
@@ -107,14 +115,6 @@ TEST(EndsSharply, TellsShadowsFromShading) {
   EXPECT_TRUE(ends_sharply([](double d) { return WithMargin(d, kWidthPx); }));
   EXPECT_FALSE(ends_sharply([](double d) {
     return kDark + (1 - std::exp(d / kWidthPx)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
-  })) << "shading";
-}
-
-TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
-  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 0); }));
-  EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 6); })) << "a margin";
-  EXPECT_FALSE(LineIn([](double d) {
-    return kDark + (1 - std::exp(d / 4)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
   })) << "shading";
 }
 

@@ -70,9 +70,9 @@ struct Band {
 // rounded one: dark, alike in light and width, before the same ground.
 [[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b);
 
-// Whether margins of two edges that face the same way are one shadow: alike in light and, to
-// that factor, in width, before the same ground. Bevels are ground on cutting edges, not on the
-// blades' outer sides.
+// Whether margins of two edges that face the same way are one shadow: alike in light, before the
+// same ground, and neither wider than the other by the factor `same_width`. Bevels are ground on
+// cutting edges, not on the blades' outer sides.
 [[nodiscard]] bool AreOneShadow(const Margin& a, const Margin& b, double same_width = 2);
 
 }  // namespace bladecurve

@@ -84,8 +84,8 @@ double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades)
 }
 
 // A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
-// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror the
-// other one only if it lay nearer to its rival, the border may lie between the two lines.
+// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror
+// the other one only if it lay nearer to its rival, the border may lie between the two lines.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kLess = 0.75;   // of the ambiguity before
   constexpr double kRival = 0.25;  // ambiguity of edges that have one
