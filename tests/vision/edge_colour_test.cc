@@ -262,13 +262,18 @@ TEST(JudgeDarkBand, AsksNoPatternThatDoesNotGoOnAcrossTheBand) {
 
 // Of the edge of OutsideABand, in light that depends on the distance from it.
 std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light,
-                                         double blade_px = 60) {
+                                         double blade_px = 60,
+                                         double told_apart = kToldApart) {
   Gaussian random(4);
   constexpr double kGapPx = 60;
   LocatedEdge other = OutsideABand();
   for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
-  return FindColourBorder(
-      {Coloured(random, light), 1}, testing::GammaCurve(1), OutsideABand(), other, blade_px);
+  return FindColourBorder({Coloured(random, light), 1},
+                          testing::GammaCurve(1),
+                          OutsideABand(),
+                          other,
+                          blade_px,
+                          told_apart);
 }
 
 double MeanOffset(const std::vector<Vector2d>& path_px) {
@@ -384,6 +389,23 @@ TEST(ColourBorder, LiesFarWithinALineOfThePlainGround) {
   ASSERT_TRUE(border);
   EXPECT_NEAR(border->offset_px, -kFarPx, 1.5);
   EXPECT_FALSE(BorderBeside(light, 90)) << "a wide bevel may mirror the ground";
+}
+
+// A blade of a faint blue with a grey bevel: white has no colour, nor what was cut off there.
+TEST(ColourBorder, IsNotToldFromPlainWhiteByAFaintColour) {
+  constexpr double kFaint = 0.05;
+  const Vector3d steel(120, 109, 109);
+  const auto border_before = [&](double ground) {
+    const Vector3d white(ground, ground, ground);
+    return BorderBeside(
+        [&](double d) {
+          return steel + Smooth(d + kBandPx) * (0.8 * white - steel) + Smooth(d) * 0.2 * white;
+        },
+        60,
+        kFaint);
+  };
+  EXPECT_TRUE(border_before(225));
+  EXPECT_FALSE(border_before(255));
 }
 
 TEST(ColourBorder, IsNotSeenOnAGreyGroundNorWhereTheBladeMirrorsTheGround) {

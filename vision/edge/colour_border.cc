@@ -105,6 +105,7 @@ std::optional<Transition> TransitionIn(const Profile& profile,
   constexpr double kAlone = 0.7;                   // of the profile: beyond, ground or blade alone
   constexpr double kGround = 0.25, kBlade = 0.75;  // of the way from ground to blade
   constexpr double kStillBlade = 0.4, kStillBevel = 0.2;  // which mirrors some of the ground
+  constexpr double kPlainWhite = 0.95;    // beside it, a faint colour is what was cut off
   constexpr int kSlowest = 5;             // rows; a slower change is that of a mirrored ground
   constexpr int kBeside = 2, kPlain = 4;  // rows from the transition, where light is plain
   const int outer = profile.outer, inner = -profile.inner;
@@ -113,6 +114,7 @@ std::optional<Transition> TransitionIn(const Profile& profile,
   const Vector3d blade = profile.Mean(inner, blade_from);
   const Chroma of_ground = ChromaOf(ground), way = ChromaOf(blade) - of_ground;
   if (way.norm() < told_apart) return std::nullopt;
+  if (way.norm() < kToldApart && ground.maxCoeff() > kPlainWhite) return std::nullopt;
   const auto share = [&](int v) {
     return (ChromaOf(profile.At(v)) - of_ground).dot(way) / way.squaredNorm();
   };
