@@ -171,6 +171,25 @@ TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
   EXPECT_FALSE(AreOneShadow(shadow, {10, 0.2, 0.7, Shadow::kBrighter}));
 }
 
+TEST(ShadowBesidePx, MeasuresWhatIsMuchDarkerThanBesideTheOtherEdgeAndEnds) {
+  constexpr double kShadowPx = 12, kWidestPx = 30;
+  const auto shadow_in = [](double width_px, double shade, double widest_px) {
+    const cv::Mat grey = PictureOf([&](double d) {
+      return kBlade + Smooth(d) * (shade * kGround - kBlade) +
+             Smooth(d - width_px) * (1 - shade) * kGround;
+    });
+    LocatedEdge other = UprightEdge();
+    for (LocatedEdgePoint& point : other.points) point.trend_px.x() += 50;
+    return ShadowBesidePx(grey, testing::GammaCurve(1), UprightEdge(), other, widest_px);
+  };
+  const auto shadow = shadow_in(kShadowPx, 0.5, kWidestPx);
+  ASSERT_TRUE(shadow);
+  EXPECT_NEAR(*shadow, kShadowPx, 1.5);
+  EXPECT_FALSE(shadow_in(kShadowPx, 0.8, kWidestPx)) << "no darker than folds";
+  EXPECT_FALSE(shadow_in(kShadowPx, 0.5, kShadowPx - 4)) << "another ground";
+  EXPECT_FALSE(shadow_in(300, 0.5, 200)) << "out of the picture";
+}
+
 // A bright blade on dark ground, bordered by a bevel that mirrors it.
 double WithDimBevel(double d, double width_px) {
   constexpr double kBright = 220, kBevel = 70, kDarkGround = 30;

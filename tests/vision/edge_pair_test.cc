@@ -227,20 +227,45 @@ TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsTo
   }
 }
 
-// A narrow bevel that mirrors the ground, but darker, on the side that the sun shines on: it looks
-// like the ground in shadow, but neither its shank nor the other blade's outer side casts one.
+// Sun on the upper cutting edge, and a coloured ground.
+SceneSpec SceneLitFromItsUpperEdgesSide(double elevation_rad) {
+  SceneSpec spec = SceneWithShadowOnOneSide(elevation_rad);
+  spec.light.direction_rad += std::numbers::pi;
+  spec.backdrop = Backdrop::kDrape;
+  spec.drape_rgb = {0.5, 0.33, 0.2};
+  spec.texture = 0;
+  return spec;
+}
+
+// A narrow bevel along the upper edge that mirrors the ground, but darker: `dark` of its grey
+// values. It looks like the ground in shadow.
+cv::Mat WithDarkBevel(const SceneSpec& spec, double bevel_px, double dark) {
+  return RetouchedAlongUpperEdge(
+      spec, 0.5, bevel_px, [&](const cv::Vec3d& sheet, double, double) { return dark * sheet; });
+}
+
+// Neither its shank nor the other blade's outer side casts one.
 TEST(LocateBlades, TakesNoBevelForAShadowThatNothingElseCasts) {
-  constexpr double kClosePx = 0.5, kDark = 0.35;  // of the ground's grey values
+  constexpr double kClosePx = 0.5;
   for (const double bevel_px : {3.0, 4.0}) {
-    SceneSpec spec = SceneWithShadowOnOneSide(50 * kDegree);
-    spec.light.direction_rad += std::numbers::pi;
-    spec.backdrop = Backdrop::kDrape;
-    spec.drape_rgb = {0.5, 0.33, 0.2};
-    spec.texture = 0;
-    const cv::Mat picture = RetouchedAlongUpperEdge(
-        spec, 0.5, bevel_px, [](const cv::Vec3d& sheet, double, double) { return kDark * sheet; });
-    const BladeEdges edges = Seen(spec, picture).Locate();
+    const SceneSpec spec = SceneLitFromItsUpperEdgesSide(50 * kDegree);
+    const BladeEdges edges = Seen(spec, WithDarkBevel(spec, bevel_px, 0.35)).Locate();
     EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << bevel_px;
+  }
+}
+
+// There the blade's outer side casts a shadow, by far wider than the bevel.
+TEST(LocateBlades, TakesNoBevelForAShadowOnTheSideThatLightComesFrom) {
+  constexpr double kClosePx = 0.5;
+  for (const auto& [theta_deg, bevel_px, dark] : {std::tuple(19, 2.5, 0.35),
+                                                  std::tuple(19, 2.5, 0.5),
+                                                  std::tuple(40, 2.5, 0.6),
+                                                  std::tuple(40, 3.0, 0.5),
+                                                  std::tuple(40, 4.0, 0.5)}) {
+    SceneSpec spec = SceneLitFromItsUpperEdgesSide(40 * kDegree);
+    spec.theta_rad = theta_deg * kDegree;
+    const BladeEdges edges = Seen(spec, WithDarkBevel(spec, bevel_px, dark)).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << bevel_px << dark;
   }
 }
 

@@ -37,6 +37,17 @@ constexpr double kDarker = 1.5;   // times lighter is the ground than a margin
 
 using Across = std::function<double(double)>;  // light at a distance from an edge
 
+Across LightAcross(const cv::Mat& grey, const ToneCurve& tone, const LocatedEdge& edge) {
+  return [&](double across) { return TypicalLight(grey, tone, edge, across).value_or(0); };
+}
+
+double GroundBeside(const Across& light_at) {
+  constexpr double kNearPx = 4, kFarPx = 10;
+  std::vector<double> ground;
+  for (double across = kNearPx; across <= kFarPx; ++across) ground.push_back(light_at(across));
+  return Median(std::move(ground));
+}
+
 std::optional<Margin> DarkMargin(const Across& light_at, double ground, double widest_px) {
   constexpr double kDarkestPx = 4;
   constexpr double kRises = 1.2, kPlate = 1.25;  // light where the margin ends, and behind
@@ -99,14 +110,8 @@ std::optional<Margin> FindMargin(const cv::Mat& grey,
                                  double blade_px) {
   constexpr double kWidest = 0.5;        // of the blade,
   constexpr double kLeastWidestPx = 10;  // but no less
-  constexpr double kGroundPx = 4, kGroundEndPx = 10;
-  const Across light_at = [&](double across) {
-    return TypicalLight(grey, tone, edge, across).value_or(0);
-  };
-  std::vector<double> ground;
-  for (double across = kGroundPx; across <= kGroundEndPx; ++across)
-    ground.push_back(light_at(across));
-  const double ground_light = Median(std::move(ground));
+  const Across light_at = LightAcross(grey, tone, edge);
+  const double ground_light = GroundBeside(light_at);
   const double widest = std::max(kWidest * blade_px, kLeastWidestPx);
   std::optional<Margin> margin = DarkMargin(light_at, ground_light, widest);
   return margin ? margin : BrightMargin(light_at, ground_light, widest, edge);
@@ -140,9 +145,7 @@ std::optional<Margin> FindDarkLine(const cv::Mat& grey,
   constexpr double kDeep = 0.2;  // of the step to the ground
   constexpr double kSteep = 2;   // times as much as light falls off further in
   if (TypicalContrast(edge) <= 0) return std::nullopt;
-  const Across light_at = [&](double across) {
-    return TypicalLight(grey, tone, edge, across).value_or(0);
-  };
+  const Across light_at = LightAcross(grey, tone, edge);
   double darkest_px = 0, dark = light_at(0);
   for (double across = kStepPx; across <= kWidestPx; across += kStepPx) {
     const double light = light_at(-across);
@@ -178,6 +181,25 @@ std::optional<double> TrailPx(const cv::Mat& grey, const ToneCurve& tone, const 
   double trail = 0;
   while (trail < kFarthestPx && root_at(trail) > end) trail += kStepPx;
   return trail;
+}
+
+std::optional<double> ShadowBesidePx(const cv::Mat& grey,
+                                     const ToneCurve& tone,
+                                     const LocatedEdge& edge,
+                                     const LocatedEdge& other,
+                                     double widest_px) {
+  constexpr double kEnds = 1.25;  // times darker than the ground, at most
+  const double ground = GroundBeside(LightAcross(grey, tone, other));
+  bool dark = true;
+  double width = 0;
+  for (double across = kNearestPx; across <= kNearestPx + widest_px; ++across) {
+    const auto light = TypicalLight(grey, tone, edge, across);
+    if (!light) return std::nullopt;
+    dark = dark && kDarker * *light < ground;
+    if (dark) width = across;
+    if (width > 0 && kEnds * *light > ground) return width;
+  }
+  return std::nullopt;
 }
 
 std::optional<Band> BandBeside(const cv::Mat& grey,

@@ -46,6 +46,15 @@ struct Margin {
                                             const ToneCurve& tone,
                                             const LocatedEdge& edge);
 
+// How far from an edge on a shadow lies on the ground: much darker than beside the other edge, from
+// where the blur ends, and then about as light again. std::nullopt where there is none, where it is
+// wider than that, or out of the picture.
+[[nodiscard]] std::optional<double> ShadowBesidePx(const cv::Mat& grey,
+                                                   const ToneCurve& tone,
+                                                   const LocatedEdge& edge,
+                                                   const LocatedEdge& other,
+                                                   double widest_px);
+
 // What lies between an edge and a line beside it.
 struct Band {
   double width_px = 0;

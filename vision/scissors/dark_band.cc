@@ -90,7 +90,8 @@ DarkBand Judge(const BladeView& view, const LocatedEdge& edge, bool left) {
   if (band == DarkBand::kMetal || !matters) return band;
   const bool is_metal =
       band == DarkBand::kShadow
-          ? CastsNoShadow(view, edge, left, edge.rival_px)
+          ? CastsNoShadow(view, edge, left, edge.rival_px) ||
+                CastsToOtherSide(view, edge, left, edge.rival_px)
           : IsRound(view, edge, left) || CastsNone(view, view.ShankSide(left), edge, edge.rival_px);
   return is_metal ? DarkBand::kMetal : band;
 }
@@ -102,6 +103,15 @@ bool HasDarkBand(const LocatedEdge& edge) { return HasDarkBand(edge, kAsGood); }
 bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
   return CastsNone(view, view.ShankSide(left), edge, line_px) &&
          CastsNone(view, view.OuterSide(!left), edge, line_px, kAboutSameWay);
+}
+
+bool CastsToOtherSide(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
+  constexpr double kByFar = 2;
+  const std::optional<LocatedEdge> outer = view.OuterSide(left);
+  if (!outer) return false;
+  const double blade_px = BladeOf(view.scene(), left).width_px;
+  const auto shadow_px = ShadowBesidePx(view.grey(), view.tone(), *outer, edge, blade_px);
+  return shadow_px && *shadow_px > kByFar * std::abs(line_px);
 }
 
 LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
@@ -119,10 +129,11 @@ LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left) {
 }
 
 void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right) {
-  const auto banded = [](const LocatedEdge& edge) {
-    return HasDarkBand(edge) && edge.rival_px < 0;
+  const auto is_shadows = [&](const LocatedEdge& edge, bool on_left) {
+    return HasDarkBand(edge) && edge.rival_px < 0 &&
+           !CastsToOtherSide(view, edge, on_left, edge.rival_px);
   };
-  if (!banded(*left) || !banded(*right)) return;
+  if (!is_shadows(*left, true) || !is_shadows(*right, false)) return;
   const auto l = AlongSide(view, left->rival_path_px, *left, true);
   const auto r = AlongSide(view, right->rival_path_px, *right, false);
   if (!l || !r) return;

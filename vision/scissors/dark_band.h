@@ -20,12 +20,19 @@ namespace bladecurve {
                                  bool left,
                                  double line_px);
 
+// Whether the blade's outer side casts a shadow, wider than the band between an edge and that line
+// by far: light comes from the edge's side.
+[[nodiscard]] bool CastsToOtherSide(const BladeView& view,
+                                    const LocatedEdge& edge,
+                                    bool left,
+                                    double line_px);
+
 // Of the two sides of a dark band, the inner one if it is the ground in shadow, the outer one if it
 // is metal: by colour, by the ground's pattern, by what the blade's other side and its shank show.
 // Within a band that is either, the edge is in doubt. The edge as it is where it has no band.
 [[nodiscard]] LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left);
 
-// Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
+// Of a pair of blades only the one on top shows its bevel: dark bands along both edges are 
 // shadows, and both borders the bands' inner sides.
 void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right);
 

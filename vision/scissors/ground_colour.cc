@@ -64,6 +64,9 @@ void LeavePassingShadow(const ColoursBeside& colours, LocatedEdge* edge) {
   if (TypicalContrast(*edge) <= 0 || edge->ambiguity > kAsGood) return;
   const auto border = colours.BorderAlong(*edge, kHardlyApart);
   if (!border || border->offset_px > -kFarPx) return;
+  if (CastsNoShadow(colours.view, *edge, colours.left, border->offset_px) ||
+      CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px))
+    return;
   if (auto within = colours.EdgeAt(*border, *edge, kHardlyApart)) *edge = *std::move(within);
 }
 
@@ -74,9 +77,11 @@ void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
   if (std::abs(border->offset_px) < kFarPx) return;
   const bool is_within = border->offset_px < 0 && TypicalContrast(*edge) > 0;
   if (is_within && CastsNoShadow(colours.view, *edge, colours.left, border->offset_px)) return;
-  if (auto there = colours.EdgeAt(*border, *edge)) {
-    *edge = *std::move(there);
-    return;
+  if (!is_within || !CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px)) {
+    if (auto there = colours.EdgeAt(*border, *edge)) {
+      *edge = *std::move(there);
+      return;
+    }
   }
   SetRival(edge, border->offset_px);
   DoubtForRival(edge, std::abs(border->offset_px));
