@@ -171,6 +171,12 @@ TEST(AreOneShadow, NeedsTheSameLightGroundAndAboutTheSameWidth) {
   EXPECT_FALSE(AreOneShadow(shadow, {10, 0.2, 0.7, Shadow::kBrighter}));
 }
 
+TEST(AreAsDark, ComparesMarginsWithTheirGrounds) {
+  const Margin shadow{10, 0.05, 0.7};
+  EXPECT_TRUE(AreAsDark(shadow, {3, 0.1, 0.75})) << "narrow: blur adds light of the ground";
+  EXPECT_FALSE(AreAsDark(shadow, {10, 0.15, 0.7}));
+}
+
 TEST(ShadowBesidePx, MeasuresWhatIsMuchDarkerThanBesideTheOtherEdgeAndEnds) {
   constexpr double kShadowPx = 12, kWidestPx = 30;
   const auto shadow_in = [](double width_px, double shade, double widest_px) {

@@ -269,6 +269,25 @@ TEST(LocateBlades, TakesNoBevelForAShadowOnTheSideThatLightComesFrom) {
   }
 }
 
+// Shadows of a high sun, nearly black, that differ by how much of the ground's light blur leaves in
+// them.
+TEST(LocateBlades, TakesNoShadowForBladeThatTheWholeSideCasts) {
+  constexpr double kClosePx = 0.3;
+  for (const auto& [theta_deg, direction_deg] :
+       {std::pair(19, 150), std::pair(19, 170), std::pair(35, 150), std::pair(35, 170)}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(60 * kDegree);
+    spec.theta_rad = theta_deg * kDegree;
+    spec.light.direction_rad = direction_deg * kDegree;
+    spec.light.shadow = 0.95;
+    spec.light.shadow_blur_mm = 0.1;
+    spec.scissors.bevel_mm = 0;
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = {0.35, 0.35, 0.35};
+    const BladeEdges edges = Seen(spec).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << theta_deg;
+  }
+}
+
 // Wide open the outer side faces another way and its shadow is narrower; the shank's is as wide.
 TEST(LocateBlades, TakesNoShadowForBladeThatItsOwnShankCastsToo) {
   constexpr double kClosePx = 0.3;

@@ -234,6 +234,11 @@ bool AreOneShading(const Margin& a, const Margin& b) {
   return a.than_blade == Shadow::kDarker && AreAlike(a, b, kSameLight, kSameGround, kSameWidth);
 }
 
+bool AreAsDark(const Margin& a, const Margin& b) {
+  constexpr double kSameLight = 0.1;  // of the ground's
+  return std::abs(a.light / a.ground - b.light / b.ground) < kSameLight;
+}
+
 bool AreOneShadow(const Margin& a, const Margin& b, double same_width) {
   constexpr double kSameLight = 1.12, kSameGround = 1.06;
   return AreAlike(a, b, kSameLight, kSameGround, same_width);

@@ -79,6 +79,9 @@ struct Band {
 // rounded one: dark, alike in light and width, before the same ground.
 [[nodiscard]] bool AreOneShading(const Margin& a, const Margin& b);
 
+// Whether margins take about the same share of light from their grounds.
+[[nodiscard]] bool AreAsDark(const Margin& a, const Margin& b);
+
 // Whether margins of two edges that face the same way are one shadow: alike in light, before the
 // same ground, and neither wider than the other by the factor `same_width`. Bevels are ground on
 // cutting edges, not on the blades' outer sides.

@@ -80,6 +80,30 @@ bool IsShadowOfOtherBlade(const BladeView& view, const Margin& margin, bool left
   return of_shank && AreOneShadow(margin, *of_shank);
 }
 
+// Whether a dark margin that ends sharply lies along the side, if it is seen.
+std::optional<Margin> SharpMarginAlong(const BladeView& view,
+                                       const std::optional<LocatedEdge>& side,
+                                       bool left) {
+  const auto margin = MarginAlong(view, side, left);
+  const bool sharp = margin && margin->than_blade == Shadow::kDarker &&
+                     EndsSharply(view.grey(), view.tone(), *side, *margin);
+  return sharp ? margin : std::nullopt;
+}
+
+// Whether both the blade's own shank and the other blade's outer side cast a hard shadow as dark as
+// the margin, and the blade's outer side, which faces the light, none: then this edge has to cast
+// one as well.
+bool IsShadowOfWholeSide(const BladeView& view, const Margin& margin, bool left) {
+  constexpr double kNoWider = 1.2;
+  if (margin.than_blade != Shadow::kDarker) return false;
+  const auto of_shank = SharpMarginAlong(view, view.ShankSide(left), left);
+  if (!of_shank || !AreAsDark(margin, *of_shank)) return false;
+  const auto of_outer = SharpMarginAlong(view, view.OuterSide(!left), !left);
+  if (!of_outer || !AreAsDark(margin, *of_outer)) return false;
+  return margin.width_px <= kNoWider * std::max(of_shank->width_px, of_outer->width_px) &&
+         !SharpMarginAlong(view, view.OuterSide(left), left);
+}
+
 }  // namespace
 
 LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) {
@@ -94,7 +118,7 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
   const auto of_lower = view.MarginOf(edges->lower, false);
   const bool alone = of_upper.has_value() != of_lower.has_value();  // else both may be bevels
   const auto is_shadow = [&](const Margin& margin, bool left) {
-    return IsShadowOfShank(view, margin, left) ||
+    return IsShadowOfShank(view, margin, left) || IsShadowOfWholeSide(view, margin, left) ||
            (alone && IsShadowOfOtherBlade(view, margin, left));
   };
   if (of_upper && is_shadow(*of_upper, true))
