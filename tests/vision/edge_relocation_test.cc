@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "measured_blades.h"
+#include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
 
 namespace bladecurve {
@@ -354,6 +355,16 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   Relocate(&measured);
   EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.lower.used), kClosePx);
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
+}
+
+TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
+  for (const bool doubtful : {false, true}) {
+    Measured measured = WithMirroringBevelBelow();
+    if (doubtful) measured.blades.upper.edge.ambiguity = 1;
+    const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+    BorrowInnerOne(measured.View(), line, measured.pivot, &measured.blades);
+    EXPECT_EQ(measured.blades.lower.moved.empty(), doubtful);
+  }
 }
 
 // It is the curve that is told of the blade; the view's tilt may part the edges, too, which is

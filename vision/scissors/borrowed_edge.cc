@@ -6,6 +6,7 @@
 
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"
 #include "vision/scissors/mirrored_trace.h"
 
@@ -32,6 +33,7 @@ void BorrowInnerOne(const BladeView& view,
   if (pivot.screw && IsFaint(*pivot.screw)) return;
   if (!DifferBeyondPivot(pivot, *blades)) return;
   const auto [inner, other] = InnerOne(pivot, blades);
+  if (IsDoubtful(other.edge)) return;
   const MirroredBladeSearch search{view, pivot, other, line};
   const auto trace = FindMirroredTrace(view, inner, other, line, WayPx(search));
   if (!trace) return;
