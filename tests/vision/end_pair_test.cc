@@ -7,6 +7,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "vision/refused.h"
+
 namespace bladecurve {
 namespace {
 
@@ -222,6 +224,31 @@ TEST(AgreeOnEnds, DoubtsEndsThatContradictEachOther) {
   EXPECT_NEAR(LengthOf(level.upper), kLength, kExact);
   EXPECT_GT(level.upper.end.along_sigma_px, 0.4 * kGap);
   EXPECT_GT(level.lower.end.along_sigma_px, 0.4 * kGap);
+}
+
+// Pivot at (400, 350), tips 287 px to its right.
+TEST(RefuseCutOffBlade, WhereTheShorterOneWouldRunOutOfThePicture) {
+  const cv::Size wide(800, 700), narrow(680, 700);
+  for (const ScaleResult& scale : {WithMarkers(), WithoutMarkers()}) {
+    for (const bool upper_short : {false, true}) {
+      for (const bool seen : {false, true}) {
+        Blades blades{BladeOnRay(true, upper_short ? 0.7 * kLength : kLength, 1, !upper_short),
+                      BladeOnRay(false, upper_short ? kLength : 0.7 * kLength, 1, upper_short)};
+        (upper_short ? blades.upper : blades.lower).end.arc_seen = seen;
+        AgreeOnEnds(scale, PivotSeen(), &blades);
+        ASSERT_TRUE(blades.ends_contradict);
+        EXPECT_NO_THROW(RefuseCutOffBlade(scale, PivotSeen(), blades, wide));
+        EXPECT_THROW(RefuseCutOffBlade(scale, PivotSeen(), blades, narrow), Refused);
+      }
+    }
+  }
+}
+
+TEST(RefuseCutOffBlade, LeavesBladesOfOneLength) {
+  const cv::Size narrow(680, 700);
+  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, 0.99 * kLength, 5, true)};
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_NO_THROW(RefuseCutOffBlade(WithMarkers(), PivotSeen(), blades, narrow));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "vision/refused.h"
 #include "vision/scale/plane_map.h"
 
 namespace bladecurve {
@@ -190,6 +191,14 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
   }
 }
 
+// Where the shorter blade would end if it were as long as the other.
+Vector2d EndOfEqual(const EndComparison& both, const Blades& blades) {
+  const bool upper_is_shorter = both.gap < 0;
+  const Reach& reach = upper_is_shorter ? both.upper : both.lower;
+  const LocatedBlade& blade = upper_is_shorter ? blades.upper : blades.lower;
+  return blade.end.point_px + std::abs(both.gap) / reach.per_px * reach.along_px;
+}
+
 }  // namespace
 
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
@@ -208,6 +217,28 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   }
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   if (scale.sheet) Fuse(compare(), blades);
+}
+
+void RefuseCutOffBlade(const ScaleResult& scale,
+                       const Pivot& pivot,
+                       const Blades& blades,
+                       const cv::Size& picture) {
+  constexpr double kShorter = 0.03;  // of the length
+  if (!blades.ends_contradict) return;
+  const auto is_outside = [&](const Vector2d& end) {
+    return end.x() < 0 || end.y() < 0 || end.x() > picture.width - 1 ||
+           end.y() > picture.height - 1;
+  };
+  const EndComparison both = Compare(scale, pivot, blades, blades.upper.end, blades.lower.end);
+  const bool shorter =
+      std::abs(both.gap) > kShorter * std::max(both.upper.length, both.lower.length);
+  const bool cut_off = is_outside(blades.upper.end.point_px) ||
+                       is_outside(blades.lower.end.point_px) ||
+                       (shorter && is_outside(EndOfEqual(both, blades)));
+  if (!cut_off) return;
+  throw Refused(Reason::kBladesNotVisible,
+                "edges: one blade ends before the other does, and as long as that it would run out "
+                "of the picture; both tips must be inside it");
 }
 
 }  // namespace bladecurve

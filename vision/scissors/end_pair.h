@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <opencv2/core.hpp>
+
 #include "vision/pivot/pivot.h"
 #include "vision/scale/scale.h"
 #include "vision/scissors/located_blade.h"
@@ -18,5 +20,12 @@ namespace bladecurve {
 // be the reason, and the ends stay; so they do about a given pivot that does not lie behind the
 // blades. Changes `end`, not `used`, and sets `ends_contradict`.
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades);
+
+// Refuses blades whose ends contradict each other if the shorter one, as long as the other, would
+// run out of the picture: what is seen of it is no tip. For ends that were agreed on.
+void RefuseCutOffBlade(const ScaleResult& scale,
+                       const Pivot& pivot,
+                       const Blades& blades,
+                       const cv::Size& picture);
 
 }  // namespace bladecurve

@@ -105,6 +105,7 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
 
 void SettleEnds(const BladeView& view, const Pivot& pivot, Blades* blades) {
   AgreeOnEnds(view.scale(), pivot, blades);
+  RefuseCutOffBlade(view.scale(), pivot, *blades, view.grey().size());
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     KeepFree(view.scene(), blade);
     PlaceEndOnCourse(blade);
