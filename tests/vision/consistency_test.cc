@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "vision/refused.h"
@@ -66,6 +67,21 @@ TEST(RefuseInconsistent, SaysWhatIsWrong) {
   EXPECT_EQ(ReasonFor(vague), Reason::kFitFailed);
   vague.source = "geometry";
   EXPECT_EQ(ReasonFor(vague), Reason::kAmbiguousPivot);
+}
+
+TEST(RefuseInconsistent, AsksForNoPivotThatIsGiven) {
+  for (const char* source : {"screw", "hint"}) {
+    Pivot jaws = PivotSeen(0);
+    jaws.overlap = 0.01;
+    jaws.source = source;
+    try {
+      RefuseInconsistent(jaws, BladesWithRivals(0, 0));
+      FAIL() << source;
+    } catch (const Refused& refused) {
+      const bool asks = std::string(refused.what()).find("say where") != std::string::npos;
+      EXPECT_EQ(asks, jaws.source == "screw");
+    }
+  }
 }
 
 TEST(RefuseInconsistent, TakesNoWhiteBladeOnWhiteForAnAngledOneOrAJaw) {

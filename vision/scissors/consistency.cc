@@ -60,9 +60,12 @@ void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   RefuseWhite(blades);
   throw Refused(
       Reason::kNotScissors,
-      "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
-      "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are scissors, "
-      "say where the screw is: --pivot X,Y");
+      std::string("pivot: the two inner edges meet at the pivot instead of passing by it, like the "
+                  "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are "
+                  "scissors, ") +
+          (pivot.source == "hint" ? "one edge was taken elsewhere: use another background or "
+                                    "light, or check --pivot"
+                                  : "say where the screw is: --pivot X,Y"));
 }
 
 // Seen from a known side, about a screw that is seen.
