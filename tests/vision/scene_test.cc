@@ -348,10 +348,10 @@ bool GoOnBeyond(const std::function<void(cv::Mat*, const cv::Point&)>& draw_at_t
     return std::min(pair.first.tip.x(), pair.second.tip.x()) > joint.x;
   });
   EXPECT_NE(on_right, pairs.end());
-  return on_right != pairs.end() && BothGoOnBeyondTips(mask, limbs, *on_right);
+  return on_right != pairs.end() && GoOnBeyondTips(mask, limbs, *on_right);
 }
 
-TEST(BothGoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
+TEST(GoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
   constexpr int kRadius = 38;
   const cv::Size axes(kRadius, kRadius);
   EXPECT_FALSE(GoOnBeyond([](cv::Mat*, const cv::Point&) {}));
@@ -368,6 +368,41 @@ TEST(BothGoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
   EXPECT_FALSE(GoOnBeyond([](cv::Mat* mask, const cv::Point& at) {
     cv::rectangle(*mask, {at.x - 20, 20}, {at.x + 60, 380}, 255, cv::FILLED);
   })) << "a ruler";
+}
+
+// Blades that the frame cuts on the left; on the right one limb looks like a blade, and beyond the
+// other one's end lies part of a ring.
+TEST(GoOnBeyondTips, IsTrueOfOneLimbThatDoesNotTaperWhereTheFrameCutsTheOtherEnds) {
+  constexpr int kRadius = 38, kLeft = -300, kRight = 180;
+  const auto goes_on = [](int ends_left, int width_at_end) {
+    cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
+    const cv::Point joint(250, 200);
+    const auto along = [&](int sign, int way) {
+      return joint + cv::Point(way, sign * way * 4 / 10);
+    };
+    for (const int sign : {-1, 1}) {
+      const int half = (sign < 0 ? 2 : width_at_end) / 2;
+      cv::line(mask, joint, along(sign, ends_left), 255, 14);
+      const std::vector<cv::Point> limb{joint - cv::Point(0, 8),
+                                        along(sign, kRight) - cv::Point(0, half),
+                                        along(sign, kRight) + cv::Point(0, half),
+                                        joint + cv::Point(0, 8)};
+      cv::fillConvexPoly(mask, limb, 255);
+    }
+    const cv::Size axes(kRadius, kRadius);
+    cv::ellipse(mask, along(1, kRight + kRadius + 12), axes, 0, -170, 170, 255, 6);
+    const std::vector<Silhouette> things = FindSilhouettes(mask, 3);
+    const Silhouette& limbs = *ThingAt(things, {joint.x, joint.y});
+    const std::vector<BladePair> pairs = FindBladePairs(limbs, {});
+    const auto on_right = std::find_if(pairs.begin(), pairs.end(), [&](const BladePair& pair) {
+      return std::min(pair.first.tip.x(), pair.second.tip.x()) > joint.x;
+    });
+    EXPECT_NE(on_right, pairs.end());
+    return on_right != pairs.end() && GoOnBeyondTips(mask, limbs, *on_right);
+  };
+  EXPECT_TRUE(goes_on(kLeft, 16));
+  EXPECT_FALSE(goes_on(kLeft, 4)) << "a blade, by chance beside something";
+  EXPECT_FALSE(goes_on(-200, 16)) << "whole";
 }
 
 // On texture, or beside a soft shadow, a threshold's contour may run beside a sharp edge; a soft

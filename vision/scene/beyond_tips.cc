@@ -79,12 +79,16 @@ std::vector<std::size_t> GoingOn(const std::vector<OuterContour>& things,
 
 }  // namespace
 
-bool BothGoOnBeyondTips(const cv::Mat& mask, const Silhouette& silhouette, const BladePair& pair) {
+bool GoOnBeyondTips(const cv::Mat& mask, const Silhouette& silhouette, const BladePair& pair) {
   constexpr double kLeastArea = 0.5;  // of the shanks' width, squared
   const std::vector<OuterContour> things =
       OtherThings(mask, silhouette, kLeastArea * pair.shank_width * pair.shank_width);
   const std::vector<std::size_t> first = GoingOn(things, pair, pair.first);
   const std::vector<std::size_t> second = GoingOn(things, pair, pair.second);
+  const auto is_shank = [&](const BladeContour& limb, const std::vector<std::size_t>& going_on) {
+    return pair.shanks_run_out && limb.taper > kTapers && !going_on.empty();
+  };
+  if (is_shank(pair.first, first) || is_shank(pair.second, second)) return true;
   const bool share_one =
       std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) != first.end();
   return !first.empty() && !second.empty() && !share_one;

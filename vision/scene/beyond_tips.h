@@ -10,9 +10,11 @@
 namespace bladecurve {
 
 // Whether other things lie soon beyond both tips and go on there, as the rest of shanks does, or
-// their rings, of whose outline some was lost. mask: what `silhouette` is one thing of.
-[[nodiscard]] bool BothGoOnBeyondTips(const cv::Mat& mask,
-                                      const Silhouette& silhouette,
-                                      const BladePair& pair);
+// their rings, of whose outline some was lost. Where the frame cuts the other ends, which may be
+// the blades, beyond one tip is enough, if that limb does not taper. mask: what `silhouette` is one
+// thing of.
+[[nodiscard]] bool GoOnBeyondTips(const cv::Mat& mask,
+                                  const Silhouette& silhouette,
+                                  const BladePair& pair);
 
 }  // namespace bladecurve

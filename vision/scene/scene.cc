@@ -176,9 +176,6 @@ void RefuseUnlessUsable(const LadderResult& ladder,
                   std::string("scene: a blade runs out of ") + WhereLooked(hints) +
                       "; both tips must be inside it");
   }
-  // Of 11 path-traced pairs whose handles the frame cuts, no blade exceeds 0.71; a mask may lose
-  // one of them in part. Shanks reach 0.94 both.
-  constexpr double kTapers = 0.85;
   const double taper = std::min(pair.first.taper, pair.second.taper);
   if (pair.shanks_run_out && taper > kTapers && !hints.tips_direction) {
     throw Refused(Reason::kBladesNotVisible,
@@ -207,9 +204,9 @@ void RefuseOtherInstruments(const LadderResult& ladder, const StoredHints& hints
                   "more; part the instruments, use softer light, or say where the screw is: "
                   "--pivot X,Y");
   }
-  if (own != nullptr && BothGoOnBeyondTips(found.mask, *own, found.pair)) {
+  if (own != nullptr && GoOnBeyondTips(found.mask, *own, found.pair)) {
     throw Refused(Reason::kBladesNotVisible,
-                  "scene: what was taken for two blades goes on beyond both tips, as shanks do to "
+                  "scene: what was taken for two blades goes on beyond their tips, as shanks do to "
                   "their rings; both blades must be inside " +
                       std::string(WhereLooked(hints)) +
                       "; if these are the blades, say where the screw is: --pivot X,Y");

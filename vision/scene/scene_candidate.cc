@@ -103,9 +103,9 @@ void DoubtEdgesOfHidden(const cv::Mat& hidden, Candidate* candidate) {
 
 // Blades beyond whose tips other things go on are stubs of shanks, of whose outline some was lost.
 void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pair) {
-  if (!BothGoOnBeyondTips(mask, silhouette, *pair)) return;
+  if (!GoOnBeyondTips(mask, silhouette, *pair)) return;
   pair->quality = pair->worst_grade = 0;
-  pair->doubt = "both blades go on beyond their tips";
+  pair->doubt = "the blades go on beyond their tips";
 }
 
 template <typename T>
