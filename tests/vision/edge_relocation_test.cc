@@ -435,6 +435,36 @@ TEST(RelocateUnlikeEdges, LeavesNoClearEdgeForWhereADoubtfulOnePutsIt) {
   }
 }
 
+// As if light hardly stepped at the edge.
+void MakeFaint(LocatedBlade* blade) {
+  constexpr double kFaint = 0.001;
+  for (LocatedEdgePoint& p : blade->edge.points) p.contrast = kFaint;
+}
+
+TEST(RelocateUnlikeEdges, LeavesNoClearEdgeForWhereOneThatHardlyShowsPutsIt) {
+  constexpr double kSurePx = 0.3;
+  for (const bool faint : {false, true}) {
+    Measured measured = WithLineWhereMirrored(kSurePx);
+    Measured::MakeClear(&measured.blades.upper);
+    Measured::MakeClear(&measured.blades.lower);
+    if (faint) MakeFaint(&measured.blades.lower);
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.upper.moved.empty(), faint) << measured.blades.upper.moved;
+  }
+}
+
+TEST(RelocateUnlikeEdges, TakesNoBandForAShadowBecauseOfAnEdgeThatHardlyShows) {
+  constexpr double kHardMm = 0.2;
+  const SceneSpec spec = SceneWithShadow(62 * kDegree, 270 * kDegree, kHardMm);
+  for (const bool faint : {false, true}) {
+    Measured measured{spec, WithoutColours(spec)};
+    Measured::MakeClear(&measured.blades.lower);
+    if (faint) MakeFaint(&measured.blades.upper);
+    Relocate(&measured);
+    EXPECT_EQ(measured.blades.lower.moved.empty(), faint) << measured.blades.lower.moved;
+  }
+}
+
 // As a bevel's line is a higher step than the border of a blade as bright as its ground.
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAHigherStepUnlessThePivotMayHavePartedThem) {
   constexpr double kAsidePx = 8, kSurePx = 0.3, kUnsurePx = 3;

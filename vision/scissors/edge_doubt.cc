@@ -37,6 +37,11 @@ bool IsDoubtful(const LocatedEdge& edge) {
   return edge.ambiguity > kDoubt || edge.common_sigma_px > kVaguePx;
 }
 
+bool HardlyShowsBeside(const LocatedEdge& edge, const LocatedEdge& other) {
+  constexpr double kHardly = 0.05;
+  return std::abs(TypicalContrast(edge)) < kHardly * std::abs(TypicalContrast(other));
+}
+
 void AddSigma(LocatedEdge* edge, double off_px) {
   edge->common_sigma_px = std::hypot(edge->common_sigma_px, off_px);
   edge->alone_sigma_px = std::hypot(edge->alone_sigma_px, off_px);

@@ -14,6 +14,10 @@ namespace bladecurve {
 [[nodiscard]] bool IsClear(const LocatedEdge& edge);
 [[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
 
+// Whether light steps by so little at an edge, compared with the other one, that it says little of
+// where that is.
+[[nodiscard]] bool HardlyShowsBeside(const LocatedEdge& edge, const LocatedEdge& other);
+
 // Makes an edge less certain by that much, standard, for reasons of its own.
 void AddSigma(LocatedEdge* edge, double off_px);
 

@@ -59,7 +59,8 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const bool beyond = DifferBeyondPivot(pivot, *blades);
   const auto is_better = [&](const auto& found, bool upper_one, bool alone) {
     const auto [blade, other] = OneOf(blades, upper_one);
-    if (IsClear(blade.edge) && IsDoubtful(other.edge)) return false;
+    const bool is_vague = IsDoubtful(other.edge) || HardlyShowsBeside(other.edge, blade.edge);
+    if (IsClear(blade.edge) && is_vague) return false;
     const bool outside = LiesInwards(blade, pivot);
     if (found && !outside && IsSurelyBorder(blade.edge, found->blade.edge)) return false;
     return IsBetter(found, blade, {alone && outside, beyond});

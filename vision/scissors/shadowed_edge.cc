@@ -50,6 +50,7 @@ bool RelocateShadowedOne(const BladeView& view, const Pivot& pivot, Blades* blad
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   if (std::abs(pivot.asymmetry) < kLeastShare || WayPx(search) < kLeastPx) return false;
   if (TypicalContrast(outer.edge) <= 0) return false;  // brighter than the ground: no shadow of it
+  if (HardlyShowsBeside(other.edge, outer.edge)) return false;
   const double most_left = IsDoubtful(outer.edge) ? kLeftByDoubtful : kLeft;
   for (const Shadow shadow : ShadowsWithin(view, outer)) {
     const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest, shadow);
