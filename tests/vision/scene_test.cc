@@ -331,24 +331,32 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   EXPECT_FALSE(sees_stubs()) << "the limbs go on";
 }
 
-// Four limbs that cross, and what lies beyond those on the right.
-bool GoOnBeyond(const std::function<void(cv::Mat*, const cv::Point&)>& draw_at_tip) {
-  cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
-  const cv::Point joint(250, 200);
-  const auto along = [&](int sign, int way) { return joint + cv::Point(way, sign * way * 4 / 10); };
-  for (const int sign : {-1, 1}) {
-    cv::line(mask, joint, along(sign, -240), 255, 14);
-    cv::line(mask, joint, along(sign, 180), 255, 14);
-    draw_at_tip(&mask, along(sign, 230));
-  }
+const cv::Point kJoint(250, 200);
+
+// A place on the lines that cross at the joint, one above and one below it on the right.
+cv::Point OnLimb(int sign, int way) { return kJoint + cv::Point(way, sign * way * 4 / 10); }
+
+// Of four limbs that cross at the joint, for those on the right.
+bool GoOnToTheRight(const cv::Mat& mask) {
   const std::vector<Silhouette> things = FindSilhouettes(mask, 3);
-  const Silhouette& limbs = *ThingAt(things, {joint.x, joint.y});
+  const Silhouette& limbs = *ThingAt(things, {kJoint.x, kJoint.y});
   const std::vector<BladePair> pairs = FindBladePairs(limbs, {});
-  const auto on_right = std::find_if(pairs.begin(), pairs.end(), [&](const BladePair& pair) {
-    return std::min(pair.first.tip.x(), pair.second.tip.x()) > joint.x;
+  const auto on_right = std::find_if(pairs.begin(), pairs.end(), [](const BladePair& pair) {
+    return std::min(pair.first.tip.x(), pair.second.tip.x()) > kJoint.x;
   });
   EXPECT_NE(on_right, pairs.end());
   return on_right != pairs.end() && GoOnBeyondTips(mask, limbs, *on_right);
+}
+
+// Four limbs that cross, and what lies beyond those on the right.
+bool GoOnBeyond(const std::function<void(cv::Mat*, const cv::Point&)>& draw_at_tip) {
+  cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
+  for (const int sign : {-1, 1}) {
+    cv::line(mask, kJoint, OnLimb(sign, -240), 255, 14);
+    cv::line(mask, kJoint, OnLimb(sign, 180), 255, 14);
+    draw_at_tip(&mask, OnLimb(sign, 230));
+  }
+  return GoOnToTheRight(mask);
 }
 
 TEST(GoOnBeyondTips, IsTrueOfRingsThatTheMaskTearsOffAlone) {
@@ -376,29 +384,18 @@ TEST(GoOnBeyondTips, IsTrueOfOneLimbThatDoesNotTaperWhereTheFrameCutsTheOtherEnd
   constexpr int kRadius = 38, kLeft = -300, kRight = 180;
   const auto goes_on = [](int ends_left, int width_at_end) {
     cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
-    const cv::Point joint(250, 200);
-    const auto along = [&](int sign, int way) {
-      return joint + cv::Point(way, sign * way * 4 / 10);
-    };
     for (const int sign : {-1, 1}) {
-      const int half = (sign < 0 ? 2 : width_at_end) / 2;
-      cv::line(mask, joint, along(sign, ends_left), 255, 14);
-      const std::vector<cv::Point> limb{joint - cv::Point(0, 8),
-                                        along(sign, kRight) - cv::Point(0, half),
-                                        along(sign, kRight) + cv::Point(0, half),
-                                        joint + cv::Point(0, 8)};
+      const cv::Point half(0, (sign < 0 ? 2 : width_at_end) / 2), half_at_joint(0, 8);
+      cv::line(mask, kJoint, OnLimb(sign, ends_left), 255, 14);
+      const std::vector<cv::Point> limb{kJoint - half_at_joint,
+                                        OnLimb(sign, kRight) - half,
+                                        OnLimb(sign, kRight) + half,
+                                        kJoint + half_at_joint};
       cv::fillConvexPoly(mask, limb, 255);
     }
     const cv::Size axes(kRadius, kRadius);
-    cv::ellipse(mask, along(1, kRight + kRadius + 12), axes, 0, -170, 170, 255, 6);
-    const std::vector<Silhouette> things = FindSilhouettes(mask, 3);
-    const Silhouette& limbs = *ThingAt(things, {joint.x, joint.y});
-    const std::vector<BladePair> pairs = FindBladePairs(limbs, {});
-    const auto on_right = std::find_if(pairs.begin(), pairs.end(), [&](const BladePair& pair) {
-      return std::min(pair.first.tip.x(), pair.second.tip.x()) > joint.x;
-    });
-    EXPECT_NE(on_right, pairs.end());
-    return on_right != pairs.end() && GoOnBeyondTips(mask, limbs, *on_right);
+    cv::ellipse(mask, OnLimb(1, kRight + kRadius + 12), axes, 0, -170, 170, 255, 6);
+    return GoOnToTheRight(mask);
   };
   EXPECT_TRUE(goes_on(kLeft, 16));
   EXPECT_FALSE(goes_on(kLeft, 4)) << "a blade, by chance beside something";

@@ -32,8 +32,8 @@ namespace bladecurve {
 // Within a band that is either, the edge is in doubt. The edge as it is where it has no band.
 [[nodiscard]] LocatedEdge SettleDarkBand(const BladeView& view, LocatedEdge edge, bool left);
 
-// Of a pair of blades only the one on top shows its bevel: dark bands along both edges are 
-// shadows, and both borders the bands' inner sides.
+// Of a pair of blades only the one on top shows its bevel: dark bands along both edges are hard
+// shadows, and both borders the bands' inner sides. Not where one of the edges faces the light.
 void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right);
 
 // The edge along the inner side of a dark band beside it, however faint, if it is seen there.
