@@ -202,6 +202,21 @@ TEST(AgreeOnEnds, DoubtsAShadowsArc) {
   EXPECT_GT(blades.lower.end.along_sigma_px, kLeastDoubt);
 }
 
+// A shadow's arc may lie anywhere within a few hundredths of the length.
+TEST(AgreeOnEnds, WeighsAShadowsArcThatTheOtherBladesEndContradicts) {
+  constexpr double kBeyond = 24, kVague = 5;  // px
+  Blades blades{BladeOnRay(true, kLength + kBeyond, 1, true),
+                BladeOnRay(false, kLength, kVague, false)};
+  blades.upper.end.evidence = 0;
+  AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+  EXPECT_TRUE(blades.ends_contradict);
+  for (const LocatedBlade* blade : {&blades.upper, &blades.lower}) {
+    EXPECT_GT(LengthOf(*blade), kLength);
+    EXPECT_LT(LengthOf(*blade), kLength + 0.75 * kBeyond);
+    EXPECT_GT(blade->end.along_sigma_px, 0.7 * kVague);
+  }
+}
+
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
   Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
   Pivot beyond = PivotSeen();

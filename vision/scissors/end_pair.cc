@@ -138,7 +138,8 @@ void DoubtBoth(const EndComparison& both, Blades* blades) {
 bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
 
 // How far an end is to be believed: by no arc, by one that may be the shadow's, by one that is not.
-int Rank(const DistalEnd& end) { return IsShadows(end) ? 1 : 2 * int{end.arc_seen}; }
+constexpr int kShadowsRank = 1;
+int Rank(const DistalEnd& end) { return IsShadows(end) ? kShadowsRank : 2 * int{end.arc_seen}; }
 
 // One arc in ten of that kind is the shadow's indeed, up to 6 % of the length off.
 void DoubtShadowsArc(const Pivot& pivot, LocatedBlade* blade) {
@@ -211,9 +212,10 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   blades->ends_contradict = both.Contradicts();
   const int upper_rank = Rank(blades->upper.end), lower_rank = Rank(blades->lower.end);
   if (scale.sheet && ShorterOneFades(both, *blades)) return Follow(both, both.gap < 0, blades);
+  const bool by_shadows = std::max(upper_rank, lower_rank) == kShadowsRank;
   if (scale.sheet && blades->ends_contradict) {
     if (upper_rank == lower_rank) return DoubtBoth(both, blades);
-    return Follow(both, lower_rank > upper_rank, blades);
+    if (!by_shadows) return Follow(both, lower_rank > upper_rank, blades);
   }
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   if (scale.sheet) Fuse(compare(), blades);
