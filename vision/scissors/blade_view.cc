@@ -128,12 +128,16 @@ std::optional<LocatedEdge> BladeView::InShadow(const EdgeGuess& guess, Shadow sh
   return is_such ? std::move(edge) : std::nullopt;
 }
 
-std::optional<LocatedEdge> BladeView::OuterSide(bool left) const {
-  return InGrey(OuterSideOf(scene_, left));
+const std::optional<LocatedEdge>& BladeView::OuterSide(bool left) const {
+  Side& side = outer_sides_[left ? 0 : 1];
+  std::call_once(side.looked_for, [&] { side.edge = InGrey(OuterSideOf(scene_, left)); });
+  return side.edge;
 }
 
-std::optional<LocatedEdge> BladeView::ShankSide(bool left) const {
-  return InGrey(ShankSideOf(scene_, left));
+const std::optional<LocatedEdge>& BladeView::ShankSide(bool left) const {
+  Side& side = shank_sides_[left ? 0 : 1];
+  std::call_once(side.looked_for, [&] { side.edge = InGrey(ShankSideOf(scene_, left)); });
+  return side.edge;
 }
 
 std::optional<Margin> BladeView::MarginOf(const LocatedEdge& edge, bool left) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -68,8 +69,9 @@ class BladeView {
                                                     Shadow shadow = Shadow::kDarker) const;
 
   // The outer side of a blade, and the side of its shank that faces as its cutting edge does.
-  [[nodiscard]] std::optional<LocatedEdge> OuterSide(bool left) const;
-  [[nodiscard]] std::optional<LocatedEdge> ShankSide(bool left) const;
+  // Looked for when they are first asked for, from any thread.
+  [[nodiscard]] const std::optional<LocatedEdge>& OuterSide(bool left) const;
+  [[nodiscard]] const std::optional<LocatedEdge>& ShankSide(bool left) const;
 
   // Along an edge or outer side of a blade; std::nullopt where there is none.
   [[nodiscard]] std::optional<Margin> MarginOf(const LocatedEdge& edge, bool left) const;
@@ -89,6 +91,11 @@ class BladeView {
   [[nodiscard]] std::optional<LocatedEdge> InColours(const Look& look,
                                                      const EdgeGuess& guess) const;
 
+  struct Side {
+    std::once_flag looked_for;
+    std::optional<LocatedEdge> edge;
+  };
+
   const Photo& photo_;
   const ScaleResult& scale_;
   const Scene& scene_;
@@ -96,6 +103,7 @@ class BladeView {
   mutable std::once_flag decoded_, halved_;
   mutable PicturePart colours_;
   mutable ReducedColours reduced_;
+  mutable std::array<Side, 2> outer_sides_, shank_sides_;  // the left blade's first
 };
 
 // What an edge's points tell about where it runs, for comparison with another along it. 1/px^2.

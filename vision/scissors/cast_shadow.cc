@@ -59,7 +59,7 @@ bool IsShadowOfShank(const BladeView& view, const Margin& margin, bool left) {
   constexpr double kLeastPx = 6;    // narrower margins may be blur on any shank
   constexpr double kAsWide = 0.95;  // of the margin
   if (margin.width_px <= kLeastPx) return false;
-  const auto shank = view.ShankSide(left);
+  const std::optional<LocatedEdge>& shank = view.ShankSide(left);
   const auto of_shank = MarginAlong(view, shank, left);
   if (!of_shank || of_shank->width_px < kAsWide * margin.width_px ||
       !AreOneShadow(margin, *of_shank))
