@@ -124,9 +124,10 @@ bool EndsSharply(const cv::Mat& grey,
   constexpr double kDark = 1.1, kBright = 1.3;  // times the margin's light
   constexpr double kPerBlur = 3;                // from the one to the other
   constexpr double kStepPx = 0.5, kBehindPx = 6;
+  const Across light_at = LightAcross(grey, tone, edge);
   std::optional<double> dark_px;  // the last place
   for (double across = kNearestPx; across <= margin.width_px + kBehindPx; across += kStepPx) {
-    const double light = TypicalLight(grey, tone, edge, -across).value_or(0);
+    const double light = light_at(-across);
     if (light < kDark * margin.light) {
       dark_px = across;
     } else if (dark_px && light > kBright * margin.light) {
@@ -190,16 +191,14 @@ std::optional<double> ShadowBesidePx(const cv::Mat& grey,
                                      double widest_px) {
   constexpr double kEnds = 1.25;  // times darker than the ground, at most
   const double ground = GroundBeside(LightAcross(grey, tone, other));
-  bool dark = true;
-  double width = 0;
-  for (double across = kNearestPx; across <= kNearestPx + widest_px; ++across) {
-    const auto light = TypicalLight(grey, tone, edge, across);
-    if (!light) return std::nullopt;
-    dark = dark && kDarker * *light < ground;
-    if (dark) width = across;
-    if (width > 0 && kEnds * *light > ground) return width;
-  }
-  return std::nullopt;
+  const Across light_at = LightAcross(grey, tone, edge);  // 0 out of the picture
+  const double farthest = kNearestPx + widest_px;
+  double across = kNearestPx;
+  while (across <= farthest && kDarker * light_at(across) < ground) ++across;
+  if (across == kNearestPx) return std::nullopt;
+  const double width = across - 1;
+  while (across <= farthest && kEnds * light_at(across) <= ground) ++across;
+  return across <= farthest ? std::optional(width) : std::nullopt;
 }
 
 std::optional<Band> BandBeside(const cv::Mat& grey,

@@ -34,12 +34,9 @@ std::optional<LocatedEdge> AlongSide(const BladeView& view,
                                      const LocatedEdge& edge,
                                      bool left) {
   constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
-  constexpr double kAsHigh = 0.05;               // of the edge's step
   std::optional<LocatedEdge> along =
       view.InGrey({std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
-  const bool seen =
-      along && std::abs(TypicalContrast(*along)) > kAsHigh * std::abs(TypicalContrast(edge));
-  return seen ? std::move(along) : std::nullopt;
+  return along && !HardlyShowsBeside(*along, edge) ? std::move(along) : std::nullopt;
 }
 
 // The edge along the outer side of the dark band beside it, if it is seen there.
@@ -107,7 +104,7 @@ bool CastsNoShadow(const BladeView& view, const LocatedEdge& edge, bool left, do
 
 bool CastsToOtherSide(const BladeView& view, const LocatedEdge& edge, bool left, double line_px) {
   constexpr double kByFar = 2;
-  const std::optional<LocatedEdge> outer = view.OuterSide(left);
+  const std::optional<LocatedEdge>& outer = view.OuterSide(left);
   if (!outer) return false;
   const double blade_px = BladeOf(view.scene(), left).width_px;
   const auto shadow_px = ShadowBesidePx(view.grey(), view.tone(), *outer, edge, blade_px);

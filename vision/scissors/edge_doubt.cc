@@ -39,7 +39,7 @@ bool IsDoubtful(const LocatedEdge& edge) {
 
 bool HardlyShowsBeside(const LocatedEdge& edge, const LocatedEdge& other) {
   constexpr double kHardly = 0.05;
-  return std::abs(TypicalContrast(edge)) < kHardly * std::abs(TypicalContrast(other));
+  return std::abs(TypicalContrast(edge)) <= kHardly * std::abs(TypicalContrast(other));
 }
 
 void AddSigma(LocatedEdge* edge, double off_px) {

@@ -212,10 +212,10 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   blades->ends_contradict = both.Contradicts();
   const int upper_rank = Rank(blades->upper.end), lower_rank = Rank(blades->lower.end);
   if (scale.sheet && ShorterOneFades(both, *blades)) return Follow(both, both.gap < 0, blades);
-  const bool by_shadows = std::max(upper_rank, lower_rank) == kShadowsRank;
   if (scale.sheet && blades->ends_contradict) {
     if (upper_rank == lower_rank) return DoubtBoth(both, blades);
-    if (!by_shadows) return Follow(both, lower_rank > upper_rank, blades);
+    if (std::max(upper_rank, lower_rank) > kShadowsRank)
+      return Follow(both, lower_rank > upper_rank, blades);
   }
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   if (scale.sheet) Fuse(compare(), blades);

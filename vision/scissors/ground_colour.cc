@@ -77,11 +77,11 @@ void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
   if (std::abs(border->offset_px) < kFarPx) return;
   const bool is_within = border->offset_px < 0 && TypicalContrast(*edge) > 0;
   if (is_within && CastsNoShadow(colours.view, *edge, colours.left, border->offset_px)) return;
-  if (!is_within || !CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px)) {
-    if (auto there = colours.EdgeAt(*border, *edge)) {
-      *edge = *std::move(there);
-      return;
-    }
+  const bool is_lit =
+      is_within && CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px);
+  if (auto there = is_lit ? std::nullopt : colours.EdgeAt(*border, *edge)) {
+    *edge = *std::move(there);
+    return;
   }
   SetRival(edge, border->offset_px);
   DoubtForRival(edge, std::abs(border->offset_px));
