@@ -180,6 +180,20 @@ TEST(DescribeShank, SeesTheRingBesideALabelThatLiesOnTheShank) {
   }
 }
 
+TEST(DescribeShank, SeesTheRingBehindAShortShankAndNoneInABlade) {
+  constexpr double kRing = 1.6, kNone = 1;  // flare
+  const Eigen::Vector2d crotch(20, 150), end(330, 150);
+  Silhouette scissors, blade;
+  scissors.filled = cv::Mat::zeros(300, 400, CV_8UC1);
+  blade.filled = scissors.filled.clone();
+  cv::rectangle(scissors.filled, {20, 144}, {100, 156}, 255, cv::FILLED);
+  cv::circle(scissors.filled, {210, 150}, 120, 255, cv::FILLED);
+  cv::fillConvexPoly(
+      blade.filled, std::vector<cv::Point>{{20, 130}, {100, 125}, {330, 150}, {20, 170}}, 255);
+  EXPECT_GT(DescribeShank(scissors, {}, {}, end, crotch).flare, kRing);
+  EXPECT_LT(DescribeShank(blade, {}, {}, end, crotch).flare, kNone);
+}
+
 // The shadow of a blade beside another blade is no wider for that.
 TEST(WidthAcross, IsThatOfTheLimbAlongTheLine) {
   constexpr int kThinPx = 5, kWidePx = 40;

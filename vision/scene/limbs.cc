@@ -191,8 +191,13 @@ ShankEnd DescribeShank(const Silhouette& silhouette,
   for (const double t : {0.75, 0.83, 0.9, 0.95}) {
     widest = std::max(widest, WidthAcross(silhouette.filled, shank_crotch, point, t));
   }
-  const double middle = std::max(1.0, WidthHalfWay(silhouette.filled, shank_crotch, point));
-  end.flare = widest / middle;
+  // Behind short shanks, those of household scissors, a ring begins before half way.
+  double neck = WidthHalfWay(silhouette.filled, shank_crotch, point);
+  for (const double t : {0.2, 0.3}) {
+    const double width = WidthAcross(silhouette.filled, shank_crotch, point, t);
+    if (width > 0) neck = std::min(neck, width);
+  }
+  end.flare = widest / std::max(1.0, neck);
   // The arc begins at the tip of a blade, which may be out of sight itself.
   std::vector<Vector2d> own;
   std::copy_if(arc.begin(), arc.end(), std::back_inserter(own), [&](const Vector2d& p) {

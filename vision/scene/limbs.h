@@ -108,7 +108,7 @@ inline constexpr double kLimbReach = 0.35;
 // The free end of a shank: a ring, or where the frame cuts it off.
 struct ShankEnd {
   double length = 0;
-  double flare = 0;  // widest near the end over the width half way; a ring has > 1.5
+  double flare = 0;  // widest near the end over the narrowest before; a ring has > 1.5
   bool cut_off = false;
 };
 
