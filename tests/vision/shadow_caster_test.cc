@@ -52,6 +52,7 @@ TEST(TonesOf, AreTheLevelsThatAreApart) {
   ASSERT_EQ(tones.valleys.size(), 1U);
   EXPECT_GT(tones.valleys[0], -57);
   EXPECT_LT(tones.valleys[0], -28);
+  EXPECT_EQ(TonesOf(Seen(-40, shadow, -32), Scissors() | shadow).peaks.size(), 2U);
   EXPECT_EQ(TonesOf(Seen(-60, shadow, -58), Scissors() | shadow).peaks.size(), 1U);
 }
 
@@ -65,27 +66,46 @@ TEST(BestMovedImage, IsTheShadow) {
   EXPECT_LT(backwards.agreement, image.agreement) << "the scissors cover some of it";
 }
 
+const cv::Mat kNoneColoured = cv::Mat::zeros(kSize, CV_8UC1);
+
 TEST(MasksOfShadowCaster, AreOfTheMetalWhateverItsTone) {
   const cv::Mat shadow = Scissors(kShift);
   const cv::Mat things = Scissors() | shadow;
   for (const double metal : {-60, -12, 25}) {
-    const std::vector<cv::Mat> masks = MasksOfShadowCaster(Seen(metal, shadow, -35), things);
+    const std::vector<cv::Mat> masks =
+        MasksOfShadowCaster(Seen(metal, shadow, -35), things, kNoneColoured);
     ASSERT_EQ(masks.size(), 3U) << metal;
     for (const cv::Mat& mask : masks) EXPECT_GT(Overlap(mask, Scissors()), 0.85) << metal;
   }
 }
 
+// Black blades, and handles of the shadow's tone.
+TEST(MasksOfShadowCaster, AreOfTheColouredToo) {
+  constexpr double kBlade = -45, kShadow = -35;
+  const cv::Mat shadow = Scissors(kShift), things = Scissors() | shadow;
+  cv::Mat handles = kNoneColoured.clone();
+  handles.colRange(300, kSize.width).setTo(255);
+  handles &= Scissors();
+  cv::Mat lightness = Seen(kBlade, shadow, kShadow);
+  lightness.setTo(kShadow, handles);
+  EXPECT_TRUE(MasksOfShadowCaster(lightness, things, kNoneColoured).empty());
+  const std::vector<cv::Mat> masks = MasksOfShadowCaster(lightness, things, handles);
+  ASSERT_EQ(masks.size(), 3U);
+  for (const cv::Mat& mask : masks) EXPECT_GT(Overlap(mask, Scissors()), 0.85);
+}
+
 TEST(MasksOfShadowCaster, AreNoneWithoutAShadow) {
   constexpr double kMetal = -30;
   const cv::Mat image = Scissors(kShift);
-  EXPECT_TRUE(MasksOfShadowCaster(Seen(kMetal, cv::Mat(), 0), Scissors()).empty());
-  EXPECT_TRUE(MasksOfShadowCaster(Seen(25, image, 60), Scissors() | image).empty())
+  EXPECT_TRUE(MasksOfShadowCaster(Seen(kMetal, cv::Mat(), 0), Scissors(), kNoneColoured).empty());
+  EXPECT_TRUE(MasksOfShadowCaster(Seen(25, image, 60), Scissors() | image, kNoneColoured).empty())
       << "a shadow is darker than the ground";
   cv::Mat bevels = cv::Mat::zeros(kSize, CV_8UC1), metal = Seen(kMetal, cv::Mat(), 0);
   cv::line(bevels, {80, 133}, {280, 200}, 255, 5);
   cv::line(bevels, {80, 267}, {280, 200}, 255, 5);
   metal.setTo(-60, bevels);
-  EXPECT_TRUE(MasksOfShadowCaster(metal, Scissors()).empty()) << "dark bevels, on both blades";
+  EXPECT_TRUE(MasksOfShadowCaster(metal, Scissors(), kNoneColoured).empty())
+      << "dark bevels, on both blades";
 }
 
 // The shadow of one blade across the other one.

@@ -151,6 +151,13 @@ LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
   return result;
 }
 
+// Where what casts a shadow is consistent, what holds the shadow, too, is not.
+void PreferCaster(const std::vector<Rung>& stage, std::size_t others, LadderResult* result) {
+  if (stage.size() <= others) return;
+  const LadderResult caster = Choose(stage.back().candidates);
+  if (Consistent(caster)) result->best = caster.best;
+}
+
 // Whether blades were found that could be measured.
 bool ShowsWholeBlades(const LadderResult& result) {
   const BladePair& pair = result.best.pair;
@@ -173,7 +180,27 @@ cv::Mat ThingsIn(const Rung& rung) {
 std::vector<Rung> GreyRungs(const SceneView& view) {
   const GreyPicture grey = GreyOnGround(view);
   std::vector rungs{GreyRung(view, grey)};
-  Rung caster = CasterRung(view, grey, ThingsIn(rungs.front()));
+  const cv::Mat things = ThingsIn(rungs.front());
+  Rung caster = CasterRung(view, grey, things, cv::Mat::zeros(things.size(), CV_8UC1));
+  if (!caster.candidates.empty()) rungs.push_back(std::move(caster));
+  return rungs;
+}
+
+// What colour shows, what a shadow does not do, and, where only some of the things are coloured,
+// what of the others is no cast shadow.
+std::vector<Rung> ColourRungs(const SceneView& view, const ColourPictures& colour) {
+  constexpr double kPlainly = 8, kSmooth = 0.8;
+  constexpr double kSome = 0.1, kMost = 0.9;  // of the things
+  std::vector<Rung> rungs = ParallelMap(2, [&](int rung) {
+    return rung == 0 ? ColourRung(view, colour) : ShadowBlindRung(view, colour);
+  });
+  const GreyPicture lightness = LightnessOf(colour);
+  const cv::Mat coloured = MaskAbove(Smoothed(rungs.back().distance, kSmooth), kPlainly);
+  const cv::Mat things = coloured | MaskAbove(Smoothed(DistanceIn(lightness), kSmooth), kPlainly);
+  const double share =
+      static_cast<double>(cv::countNonZero(coloured)) / std::max(1, cv::countNonZero(things));
+  if (share < kSome || share > kMost) return rungs;
+  Rung caster = CasterRung(view, lightness, things, coloured);
   if (!caster.candidates.empty()) rungs.push_back(std::move(caster));
   return rungs;
 }
@@ -261,11 +288,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
           view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look",
           [&] { return GreyRungs(view); });
   LadderResult result = Consider(in_grey, all);
-  if (in_grey.size() > 1) {
-    // Where that is consistent, what holds the shadow, too, is not.
-    const LadderResult caster = Choose(in_grey.back().candidates);
-    if (Consistent(caster)) result.best = caster.best;
-  }
+  PreferCaster(in_grey, 1, &result);
   const bool grey_suffices = Consistent(result);
   if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log_->Skipped("scene-colour", "grey gave a consistent scene");
@@ -276,13 +299,9 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
           WhyRun(full,
                  grey_suffices ? "another thing lies beside the scissors"
                                : "grey did not separate the blades"),
-          [&] {
-            const ColourPictures& colour = looked->colour.emplace(SmallColour(view, kSmallSide));
-            return ParallelMap(2, [&](int rung) {
-              return rung == 0 ? ColourRung(view, colour) : ShadowBlindRung(view, colour);
-            });
-          });
-  const LadderResult in_colour = Consider(by_colour, all);
+          [&] { return ColourRungs(view, looked->colour.emplace(SmallColour(view, kSmallSide))); });
+  LadderResult in_colour = Consider(by_colour, all);
+  PreferCaster(by_colour, 2, &in_colour);
   if (grey_suffices && !full) {
     result.several = result.several || in_colour.several;
     return result;
@@ -317,7 +336,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
       Consider(see("scene-broad",
                    WhyRun(full, "lines may cross the ground"),
                    [&] {
-                     const cv::Mat& without_shadows = by_colour.back().distance;
+                     const cv::Mat& without_shadows = by_colour[1].distance;
                      return std::vector{BroadRung(view, *looked->colour, without_shadows)};
                    }),
                &broad);

@@ -147,19 +147,37 @@ GreyPicture GreyOnGround(const SceneView& view) {
   return grey;
 }
 
-Rung GreyRung(const SceneView& view, const GreyPicture& grey) {
-  cv::Mat distance = DistanceFromBackground(grey.at->pixels, grey.background);
-  if (!grey.ignore.empty()) distance.setTo(0, grey.ignore);
-  return ThresholdAll(distance, grey.ignore, Candidate{{}, grey.at, {}, "grey"}, view.hints);
+GreyPicture LightnessOf(const ColourPictures& colour) {
+  GreyPicture grey;
+  cv::Mat lightness;
+  cv::extractChannel(colour.lab->pixels, lightness, 0);
+  grey.background = FitBackground(lightness, colour.ignore);
+  grey.at = std::make_shared<const ScaledImage>(ScaledImage{lightness, colour.lab->area_px});
+  grey.ignore = colour.ignore;
+  return grey;
 }
 
-Rung CasterRung(const SceneView& view, const GreyPicture& grey, const cv::Mat& things) {
+cv::Mat DistanceIn(const GreyPicture& grey) {
+  cv::Mat distance = DistanceFromBackground(grey.at->pixels, grey.background);
+  if (!grey.ignore.empty()) distance.setTo(0, grey.ignore);
+  return distance;
+}
+
+Rung GreyRung(const SceneView& view, const GreyPicture& grey) {
+  return ThresholdAll(
+      DistanceIn(grey), grey.ignore, Candidate{{}, grey.at, {}, "grey"}, view.hints);
+}
+
+Rung CasterRung(const SceneView& view,
+                const GreyPicture& grey,
+                const cv::Mat& things,
+                const cv::Mat& coloured) {
   const Candidate like{{}, grey.at, {}, "caster"};
   Rung rung;
   rung.method = like.method;
   const cv::Mat lightness = AboveBackground(grey.at->pixels, grey.background);
   rung.distance = cv::abs(lightness);
-  const std::vector<cv::Mat> masks = MasksOfShadowCaster(lightness, things);
+  const std::vector<cv::Mat> masks = MasksOfShadowCaster(lightness, things, coloured);
   std::vector<Rung> seen = ParallelMap(static_cast<int>(masks.size()), [&](int i) {
     return SeenIn(masks[static_cast<std::size_t>(i)], like, grey.ignore, view.hints);
   });

@@ -23,14 +23,18 @@ struct GreyPicture {
   BackgroundModel background;
 };
 [[nodiscard]] GreyPicture GreyOnGround(const SceneView& view);
+[[nodiscard]] GreyPicture LightnessOf(const ColourPictures& colour);
+// From the background, in units of its scatter; CV_32FC1, 0 where ignored.
+[[nodiscard]] cv::Mat DistanceIn(const GreyPicture& grey);
 
 // By lightness alone.
 [[nodiscard]] Rung GreyRung(const SceneView& view, const GreyPicture& grey);
 // Of things that stand out in grey (CV_8UC1), what casts a shadow of another tone (see
-// MasksOfShadowCaster); without candidates where nothing does.
+// MasksOfShadowCaster, also for `coloured`); without candidates where nothing does.
 [[nodiscard]] Rung CasterRung(const SceneView& view,
                               const GreyPicture& grey,
-                              const cv::Mat& things);
+                              const cv::Mat& things,
+                              const cv::Mat& coloured);
 // By colour and lightness (Lab).
 [[nodiscard]] Rung ColourRung(const SceneView& view, const ColourPictures& colour);
 // By what a shadow does not do to the background.

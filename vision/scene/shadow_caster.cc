@@ -30,15 +30,17 @@ struct Band {
 // What stands out, within the box about it.
 struct Things {
   cv::Mat lightness, mask, flat;
-  Tones tones;
+  cv::Mat coloured;  // of them, as no shadow is
+  Tones tones;       // of the others
 };
 
-// What is of these tones, but for borders that have them on their way between others.
+// What is of these tones, but for borders that have them on their way between others, and what is
+// coloured.
 cv::Mat In(const Band& band, const Things& things) {
   const cv::Mat in = (things.lightness > band.from) & (things.lightness < band.to) & things.mask;
   cv::Mat core = in & things.flat;
   cv::dilate(Opened(core), core, Disk(5));
-  return Opened(core & in);
+  return Opened(core & in) | things.coloured;
 }
 
 // Where the lightness changes by less than half of what parts the tones.
@@ -103,13 +105,19 @@ Cast Explain(const Things& things) {
 
 }  // namespace
 
-std::vector<cv::Mat> MasksOfShadowCaster(const cv::Mat& lightness, const cv::Mat& things) {
+std::vector<cv::Mat> MasksOfShadowCaster(const cv::Mat& lightness,
+                                         const cv::Mat& things,
+                                         const cv::Mat& coloured) {
   constexpr double kExplains = 0.6;  // without shadows things have less than half in common
   constexpr double kWider[] = {0, -0.25, 0.25};
-  const Tones tones = TonesOf(lightness, things);
+  const Tones tones = TonesOf(lightness, things & ~coloured);
   if (tones.peaks.size() < 2) return {};
   const cv::Rect box = cv::boundingRect(things);
-  const Things in_box{lightness(box), things(box), FlatIn(lightness(box), tones), tones};
+  const Things in_box{lightness(box),
+                      things(box),
+                      FlatIn(lightness(box), tones),
+                      things(box) & coloured(box),
+                      tones};
   const Cast cast = Explain(in_box);
   if (cast.image.agreement < kExplains) return {};
   std::vector<cv::Mat> masks;

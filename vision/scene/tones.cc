@@ -17,7 +17,7 @@ using Histogram = std::array<float, kBins>;
 
 Histogram HistogramWithin(const cv::Mat& lightness, const cv::Mat& things) {
   constexpr int kStep = 2, kBorderPx = 2;
-  constexpr double kBroad = 2.5;  // lightness
+  constexpr double kBroad = 1.5;  // lightness
   Histogram counts{};
   for (int y = kBorderPx; y + kBorderPx < things.rows; y += kStep) {
     const float* light = lightness.ptr<float>(y);
