@@ -8,27 +8,11 @@
 #include <vector>
 
 #include "vision/scene/scene.h"
-#include "vision/scene/scene_candidate.h"
+#include "vision/scene/scene_choice.h"
 #include "vision/scene/scene_rungs.h"
 #include "vision/scene/scene_view.h"
 
 namespace bladecurve {
-
-// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
-// and more.
-inline constexpr double kAcceptedQuality = 0.45;
-
-struct LadderResult {
-  Candidate best;               // quality 0 if nothing was found
-  bool several = false;         // two good pairs in different places
-  bool closed = false;          // something looks like closed scissors, in several masks of a rung
-  std::vector<Candidate> seen;  // by all rungs, the best among them
-  bool climbed = false;         // to the top
-};
-
-// Median over the masks that show the same blades well enough, rad: a single one may lose the turn
-// where a ring merges with a shadow or a shank is not seen to its end.
-[[nodiscard]] double TurnAtJoint(const LadderResult& result);
 
 // The ways in which scissors are looked for in a photograph, the cheap ones first. Outlives none of
 // its arguments.
@@ -67,10 +51,5 @@ class SceneLadder {
   StageLog* log_;
   Looked as_is_, smooth_;
 };
-
-// Of all that was seen what other methods than the best one's show best; and what other masks of
-// that method do.
-[[nodiscard]] LadderResult ByOtherMethods(const LadderResult& result, const std::string& method);
-[[nodiscard]] LadderResult ByOtherMasks(const LadderResult& result);
 
 }  // namespace bladecurve
