@@ -66,12 +66,15 @@ std::vector<Rung> ColourRungs(const SceneView& view, const ColourPictures& colou
   std::vector<Rung> rungs = ParallelMap(2, [&](int rung) {
     return rung == 0 ? ColourRung(view, colour) : ShadowBlindRung(view, colour);
   });
-  const GreyPicture lightness = LightnessOf(colour);
-  const cv::Mat coloured = MaskAbove(Smoothed(rungs.back().distance, kSmooth), kPlainly);
-  const cv::Mat things = coloured | MaskAbove(Smoothed(DistanceIn(lightness), kSmooth), kPlainly);
-  const double share =
-      static_cast<double>(cv::countNonZero(coloured)) / std::max(1, cv::countNonZero(things));
+  const auto plainly = [](const cv::Mat& distance) {
+    return MaskAbove(Smoothed(distance, kSmooth), kPlainly);
+  };
+  const cv::Mat coloured = plainly(rungs.back().distance);
+  const double share = static_cast<double>(cv::countNonZero(coloured)) /
+                       std::max(1, cv::countNonZero(coloured | plainly(rungs.front().distance)));
   if (share < kSome || share > kMost) return rungs;
+  const GreyPicture lightness = LightnessOf(colour);
+  const cv::Mat things = coloured | plainly(DistanceIn(lightness));
   Rung caster = CasterRung(view, lightness, things, coloured);
   if (!caster.candidates.empty()) rungs.push_back(std::move(caster));
   return rungs;
