@@ -10,6 +10,7 @@
 
 #include "vision/image/covariance.h"
 #include "vision/parallel.h"
+#include "vision/pivot/screw_crescents.h"
 #include "vision/pivot/screw_evidence.h"
 #include "vision/pivot/screw_field.h"
 #include "vision/pivot/screw_ground.h"
@@ -254,7 +255,7 @@ RimFit RefineRim(const cv::Mat& grey,
   const auto instead = ParallelMap(2, [&](int i) {
     return i == 0 ? LeaveOutOddThird(even, start, *refined) : FitInGrain(even, *refined);
   });
-  RimFit fit = instead[0].value_or(instead[1].value_or(refined->fit));
+  RimFit fit = LeaveCrescents(light.grey, instead[0].value_or(instead[1].value_or(refined->fit)));
   fit.rim = fit.rim.OutOf(light.origin, 1);
   return MoreDoubtful(fit, UnseenVariance(*refined, judged));
 }

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/pivot/screw_crescents.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "vision/image/tone_curve.h"
+#include "vision/pivot/screw.h"
+#include "vision/pivot/screw_ellipse.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kSide = 81, kFiner = 4, kLamps = 6;
+constexpr double kRadiusPx = 13, kChamferPx = 2, kShadowPx = 2;
+const Vector2d kCenter(40.3, 39.6);
+
+// A head that stands up on a plate, in linear light: its top, a chamfer that is lit towards the
+// lamp and dark away from it, and the shadow that it casts.
+double LightAt(const Vector2d& place, double top, const Vector2d& to_lamp) {
+  constexpr double kPlate = 0.3, kGlint = 0.9, kDark = 0.05, kHalfLit = 0.6;
+  const Vector2d out = place - kCenter;
+  if (out.norm() < kRadiusPx) return top;
+  if (out.norm() < kRadiusPx + kChamferPx)
+    return out.normalized().dot(to_lamp) > kHalfLit ? kGlint : kDark;
+  return (out + kShadowPx * to_lamp).norm() < kRadiusPx + kChamferPx ? kDark : kPlate;
+}
+
+// CV_32F, linear.
+cv::Mat RaisedHead(double top, const Vector2d& to_lamp) {
+  constexpr double kBlurPx = 0.7;
+  cv::Mat fine(kSide * kFiner, kSide * kFiner, CV_32FC1), light;
+  for (int y = 0; y < fine.rows; ++y) {
+    for (int x = 0; x < fine.cols; ++x) {
+      const Vector2d place((x + 0.5) / kFiner - 0.5, (y + 0.5) / kFiner - 0.5);
+      fine.at<float>(y, x) = static_cast<float>(LightAt(place, top, to_lamp));
+    }
+  }
+  cv::GaussianBlur(fine, fine, {}, kFiner * kBlurPx);
+  cv::resize(fine, light, {kSide, kSide}, 0, 0, cv::INTER_AREA);
+  return light;
+}
+
+cv::Mat Encoded(const cv::Mat& light) {
+  cv::Mat grey(light.size(), CV_8UC1), noise(light.size(), CV_32FC1);
+  cv::RNG(3).fill(noise, cv::RNG::NORMAL, 0, 1);
+  for (int y = 0; y < light.rows; ++y) {
+    for (int x = 0; x < light.cols; ++x) {
+      const double l = light.at<float>(y, x);
+      const double srgb = l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1 / 2.4) - 0.055;
+      grey.at<uchar>(y, x) = cv::saturate_cast<uchar>(255 * srgb + noise.at<float>(y, x));
+    }
+  }
+  return grey;
+}
+
+std::optional<Screw> FindIn(const cv::Mat& grey) {
+  ScrewSearch search;
+  search.guess_px = kCenter + Vector2d(2, -1);
+  search.radius_px = 6;
+  search.min_semi_axis_px = 8;
+  search.max_semi_axis_px = 20;
+  return FindScrew(grey, SrgbToneCurve(), search);
+}
+
+Vector2d Lamp(int lamp) {
+  const double angle = 2 * std::numbers::pi * (lamp + 0.3) / kLamps;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+// A rim that rises, or falls, all round lies aside by up to half of chamfer and shadow.
+TEST(LeaveCrescents, TakesTheCentreOfARaisedHeadBackBeforeTheLamp) {
+  constexpr double kDarkTop = 0.15, kBrightTop = 0.45;
+  constexpr double kOffPx = 0.6, kSigmas = 2.5;
+  for (const double top : {kDarkTop, kBrightTop}) {
+    for (int lamp = 0; lamp < kLamps; ++lamp) {
+      const std::optional<Screw> screw = FindIn(Encoded(RaisedHead(top, Lamp(lamp))));
+      ASSERT_TRUE(screw) << top << " lamp " << lamp;
+      const Vector2d off = screw->center_px - kCenter;
+      EXPECT_LT(off.norm(), kOffPx) << top << " lamp " << lamp;
+      EXPECT_LT(off.dot(screw->covariance_px2.inverse() * off), kSigmas * kSigmas)
+          << top << " lamp " << lamp;
+    }
+  }
+}
+
+TEST(LeaveCrescents, LeavesARimThatHasNone) {
+  cv::Mat light(kSide, kSide, CV_32FC1, cv::Scalar(0.3));
+  cv::circle(light, {40, 40}, 13, cv::Scalar(0.15), cv::FILLED);
+  cv::circle(light, {40, 40}, 14, cv::Scalar(0.6), 2);
+  RimFit fit;
+  fit.rim = RimEllipse::Circle({40.2, 40.1}, 13.5);
+  fit.center_covariance = 0.01 * Eigen::Matrix2d::Identity();
+  const RimFit left = LeaveCrescents(light, fit);
+  EXPECT_EQ(left.rim.center, fit.rim.center) << "a ring lit all round";
+  EXPECT_EQ(left.center_covariance, fit.center_covariance);
+}
+
+}  // namespace
+}  // namespace bladecurve
