@@ -227,6 +227,34 @@ TEST(LocateBlades, TakesNoBrightShadowForBladeThatTheOtherBladesOuterSideCastsTo
   }
 }
 
+// Hard shadows of black blades, 2 to 4 px wide, along the upper edge or the lower one: narrower
+// than what can be told from blur by its light. The sides of the scissors that face as the edge
+// does cast one, too.
+TEST(LocateBlades, LeavesNarrowShadowsOfBlackBlades) {
+  constexpr double kClosePx = 0.5, kSigmas = 2;
+  for (const auto& [theta_deg, elevation_deg, direction_deg, shadow] :
+       {std::tuple(19, 40, 220, 0.85),
+        std::tuple(30, 60, 220, 0.75),
+        std::tuple(45, 60, 200, 0.75),
+        std::tuple(45, 60, 220, 0.85),
+        std::tuple(60, 70, 220, 0.75)}) {
+    SceneSpec spec = SceneWithShadowOnOneSide(elevation_deg * kDegree);
+    spec.finish = Finish::kBlack;
+    spec.theta_rad = theta_deg * kDegree;
+    spec.light.direction_rad = direction_deg * kDegree;
+    spec.light.shadow = shadow;
+    spec.light.shadow_blur_mm = 0.08;
+    const BladeEdges edges = Seen(spec).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    for (const auto& [edge, of_blade] :
+         {std::pair(&edges.upper, &truth.upper), std::pair(&edges.lower, &truth.lower)}) {
+      const double off_px = FarFrom(*of_blade, edge->points);
+      EXPECT_LT(off_px, kClosePx) << theta_deg << " " << direction_deg;
+      EXPECT_LT(off_px, kSigmas * TotalSigma(*edge)) << theta_deg << " " << direction_deg;
+    }
+  }
+}
+
 // Sun on the upper cutting edge, and a coloured ground.
 SceneSpec SceneLitFromItsUpperEdgesSide(double elevation_rad) {
   SceneSpec spec = SceneWithShadowOnOneSide(elevation_rad);

@@ -13,6 +13,10 @@
 
 namespace bladecurve {
 
+// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
+// and more.
+inline constexpr double kAcceptedQuality = 0.45;
+
 // A pair of blades that some rung of the ladder found.
 struct Candidate {
   BladePair pair;

@@ -9,10 +9,6 @@
 
 namespace bladecurve {
 
-// Below this a pair of blades is a chance arrangement: clutter reaches 0.2, scissors seen whole 0.7
-// and more.
-inline constexpr double kAcceptedQuality = 0.45;
-
 struct LadderResult {
   Candidate best;               // quality 0 if nothing was found
   bool several = false;         // two good pairs in different places

@@ -181,7 +181,12 @@ Rung CasterRung(const SceneView& view,
   std::vector<Rung> seen = ParallelMap(static_cast<int>(masks.size()), [&](int i) {
     return SeenIn(masks[static_cast<std::size_t>(i)], like, grey.ignore, view.hints);
   });
-  for (Rung& mask : seen) Add(std::move(mask), &rung);
+  for (Rung& mask : seen) {
+    // There are few masks: one in which the blades are lost confirms none of the others.
+    std::erase_if(mask.candidates,
+                  [](const Candidate& c) { return c.pair.quality < kAcceptedQuality; });
+    Add(std::move(mask), &rung);
+  }
   return rung;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "vision/edge/edge_tread.h"
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_doubt.h"
 
@@ -104,7 +105,53 @@ bool IsShadowOfWholeSide(const BladeView& view, const Margin& margin, bool left)
          !SharpMarginAlong(view, view.OuterSide(left), left);
 }
 
+// What lies along the inner side of an edge of dark metal and is brighter than that, narrow or
+// wide.
+std::optional<Tread> BrightStripAlong(const BladeView& view,
+                                      const std::optional<LocatedEdge>& side,
+                                      bool left) {
+  if (!side) return std::nullopt;
+  if (const auto tread = FindTread(view.grey(), view.tone(), *side)) return tread;
+  const auto margin = view.MarginOf(*side, left);
+  if (!margin || margin->than_blade != Shadow::kBrighter) return std::nullopt;
+  return Tread{-margin->width_px, margin->width_px, margin->light, margin->ground};
+}
+
+// Whether two strips take about the same share of light from their grounds.
+bool MayBeOneShadow(const Tread& a, const std::optional<Tread>& b) {
+  constexpr double kSameShare = 1.5;
+  if (!b) return false;
+  const double ratio = a.light / a.ground * b->ground / b->light;
+  return ratio < kSameShare && 1 < kSameShare * ratio;
+}
+
+// Every point, out of the blade.
+void MoveAcross(LocatedEdge* edge, double px) {
+  for (LocatedEdgePoint& p : edge->points) {
+    p.point_px += px * p.normal;
+    p.trend_px += px * p.normal;
+  }
+}
+
+void LeaveOwnNarrowShadow(const BladeView& view, LocatedEdge* edge, bool left) {
+  constexpr double kDoubt = 0.35;                               // of the width
+  if (edge->rival_px > 0 && edge->ambiguity > kAsGood) return;  // a shadow was left before
+  const auto tread = FindTread(view.grey(), view.tone(), *edge);
+  if (!tread || BrightStripAlong(view, view.OuterSide(left), left)) return;
+  if (!MayBeOneShadow(*tread, BrightStripAlong(view, view.OuterSide(!left), !left)) &&
+      !MayBeOneShadow(*tread, BrightStripAlong(view, view.ShankSide(left), left)))
+    return;
+  MoveAcross(edge, tread->begins_px);
+  SetRival(edge, tread->width_px);
+  DoubtForRival(edge, kDoubt * tread->width_px);
+}
+
 }  // namespace
+
+void LeaveNarrowShadow(const BladeView& view, BladeEdges* edges) {
+  LeaveOwnNarrowShadow(view, &edges->upper, true);
+  LeaveOwnNarrowShadow(view, &edges->lower, false);
+}
 
 LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) {
   constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty

@@ -15,6 +15,12 @@ namespace bladecurve {
 // own shank, or the other blade's outer side, which face the same way, cast the same one.
 void LeaveCastShadow(const BladeView& view, BladeEdges* edges);
 
+// An edge of dark metal along the border of its own shadow, where that is so narrow that it looks
+// like blur: moved to where the shadow begins. The other blade's outer side or the own shank, which
+// face about the same way, cast one, too, and the blade's outer side, which faces the other way,
+// none. In doubt by some of the width.
+void LeaveNarrowShadow(const BladeView& view, BladeEdges* edges);
+
 // A dark line along an edge, so narrow that nothing tells whether it is a bevel or the shadow where
 // the blade all but touches what it lies on: the edge may lie on its other side.
 void DoubtDarkLine(const BladeView& view, bool left, LocatedEdge* edge);

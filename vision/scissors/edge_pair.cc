@@ -161,6 +161,7 @@ BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   edges.lower = WithBlurOf(view, edges.upper, std::move(edges.lower), false);
   SettleByColour(view, plan, &edges);
   LeaveCastShadow(view, &edges);
+  LeaveNarrowShadow(view, &edges);
   DoubtDarkLine(view, true, &edges.upper);
   DoubtDarkLine(view, false, &edges.lower);
   LeaveBevelsLine(view, &edges);
