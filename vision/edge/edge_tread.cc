@@ -13,19 +13,20 @@
 namespace bladecurve {
 namespace {
 
-using Eigen::ArrayXd;
 using Eigen::Index;
 
 // Light across an edge, from within the blade to the ground.
 constexpr double kFromPx = -7, kToPx = 4, kStepPx = 0.5;
 constexpr Index kSamples = static_cast<Index>((kToPx - kFromPx) / kStepPx) + 1;
 
+using TreadProfile = Eigen::Array<double, kSamples, 1>;
+
 double AcrossPx(Index i) { return kFromPx + kStepPx * static_cast<double>(i); }
 
-std::optional<ArrayXd> LightAcross(const cv::Mat& grey,
-                                   const ToneCurve& tone,
-                                   const LocatedEdge& edge) {
-  ArrayXd light(kSamples);
+std::optional<TreadProfile> TreadProfileAcross(const cv::Mat& grey,
+                                               const ToneCurve& tone,
+                                               const LocatedEdge& edge) {
+  TreadProfile light;
   for (Index i = 0; i < kSamples; ++i) {
     const auto at = TypicalLight(grey, tone, edge, AcrossPx(i));
     if (!at) return std::nullopt;
@@ -35,26 +36,27 @@ std::optional<ArrayXd> LightAcross(const cv::Mat& grey,
 }
 
 // From 0 to 1 at a place, blurred.
-ArrayXd Step(double at_px, double blur_px) {
-  ArrayXd step(kSamples);
+TreadProfile BlurredAt(double at_px, double blur_px) {
+  TreadProfile step;
   for (Index i = 0; i < kSamples; ++i)
     step[i] = 0.5 * std::erfc((at_px - AcrossPx(i)) / (blur_px * std::numbers::sqrt2));
   return step;
 }
 
 // Least squares of plate + heights * steps.
+template <int kSteps>
 struct StepFit {
-  Eigen::VectorXd heights;  // the plate's light first
+  Eigen::Matrix<double, 1 + kSteps, 1> heights;  // the plate's light first
   double squares = std::numeric_limits<double>::infinity();
 };
 
 template <typename... Steps>
-StepFit FitSteps(const ArrayXd& light, const Steps&... steps) {
-  Eigen::Matrix<double, Eigen::Dynamic, 1 + sizeof...(Steps)> terms(kSamples, 1 + sizeof...(Steps));
+StepFit<sizeof...(Steps)> FitSteps(const TreadProfile& light, const Steps&... steps) {
+  Eigen::Matrix<double, kSamples, 1 + sizeof...(Steps)> terms;
   terms.col(0).setOnes();
   Index column = 1;
   ((terms.col(column++) = steps.matrix()), ...);
-  StepFit fit;
+  StepFit<sizeof...(Steps)> fit;
   fit.heights = (terms.transpose() * terms).ldlt().solve(terms.transpose() * light.matrix());
   fit.squares = (light.matrix() - terms * fit.heights).squaredNorm();
   return fit;
@@ -63,11 +65,11 @@ StepFit FitSteps(const ArrayXd& light, const Steps&... steps) {
 constexpr double kOffs[] = {-0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6};  // px, of the outer step
 constexpr double kBlurs[] = {0.4, 0.5, 0.6, 0.7, 0.85, 1, 1.2, 1.5, 1.8, 2.2, 2.7};
 
-double SquaresOfOneStep(const ArrayXd& light) {
+double SquaresOfOneStep(const TreadProfile& light) {
   double least = std::numeric_limits<double>::infinity();
   for (const double blur : kBlurs) {
     for (const double off : kOffs) {
-      least = std::min(least, FitSteps(light, Step(off, blur)).squares);
+      least = std::min(least, FitSteps(light, BlurredAt(off, blur)).squares);
     }
   }
   return least;
@@ -75,20 +77,20 @@ double SquaresOfOneStep(const ArrayXd& light) {
 
 struct TwoSteps {
   Tread tread;
-  StepFit fit;
+  StepFit<2> fit;
 };
 
-TwoSteps FitTwoSteps(const ArrayXd& light) {
+TwoSteps FitTwoSteps(const TreadProfile& light) {
   constexpr double kNarrowest = 0.8, kWidest = 5, kFiner = 0.2;
   constexpr double kPerBlur = 1.6;  // narrower ones are blur
   TwoSteps best;
   for (const double blur : kBlurs) {
     for (const double off : kOffs) {
-      const ArrayXd outer = Step(off, blur);
+      const TreadProfile outer = BlurredAt(off, blur);
       for (double width = std::max(kNarrowest, kPerBlur * blur); width <= kWidest;
            width += kFiner) {
-        StepFit fit = FitSteps(light, Step(off - width, blur), outer);
-        if (fit.squares < best.fit.squares) best = {{off - width, width, 0, 0}, std::move(fit)};
+        const StepFit<2> fit = FitSteps(light, BlurredAt(off - width, blur), outer);
+        if (fit.squares < best.fit.squares) best = {{off - width, width, 0, 0}, fit};
       }
     }
   }
@@ -96,7 +98,7 @@ TwoSteps FitTwoSteps(const ArrayXd& light) {
 }
 
 // Whether light leaves the plate earlier than it reaches the ground, as blur alone does not.
-bool MayHaveTread(const ArrayXd& light) {
+bool MayHaveTread(const TreadProfile& light) {
   constexpr double kDarker = 1.5, kLeast = 0.025;  // of the step
   constexpr double kPlatePx = -6, kBesidePx = 1.5;
   const auto at = [&](double px) { return light[std::lround((px - kFromPx) / kStepPx)]; };
@@ -113,7 +115,7 @@ std::optional<Tread> FindTread(const cv::Mat& grey,
   constexpr double kBetter = 0.35;                 // of the squares
   constexpr double kMisfit = 0.008;                // of the step, rms, of one step
   constexpr double kFaintest = 0.03, kMost = 0.5;  // of the step, the tread's
-  const std::optional<ArrayXd> light = LightAcross(grey, tone, edge);
+  const std::optional<TreadProfile> light = TreadProfileAcross(grey, tone, edge);
   if (!light || !MayHaveTread(*light)) return std::nullopt;
   const double one = SquaresOfOneStep(*light);
   TwoSteps two = FitTwoSteps(*light);
