@@ -122,22 +122,24 @@ struct Crescents {
   double depth = 0;  // of the dark one, of the step between head and plate
 };
 
-// Of the directions, how much brighter than both head and plate it is somewhere between them.
+// Of the directions, how much brighter than head and plate it is somewhere between them; than the
+// plate elsewhere, too, as a groove or another blade's shadow beside the head is no plate.
 ArrayXd RidgeOf(const Surroundings& around) {
   const Index from = around.RowsUpTo(kCrescentFrom), to = around.RowsUpTo(kCrescentTo);
   const ArrayXd brightest =
       around.light.middleRows(from, to - from).colwise().maxCoeff().transpose();
-  return (brightest - around.head.max(around.plate)).max(0.0);
+  return (brightest - around.head.max(around.plate).max(MedianOf(around.plate))).max(0.0);
 }
 
 std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse& rim) {
   constexpr double kLeast = 0.015, kOfStep = 0.7;  // light
   constexpr double kToOneSide = 0.6;               // first harmonic over mean
   constexpr double kOpposite = 0.35;               // of the height
+  constexpr double kWidest = 0.28;                 // out of the rim, of its radius
   constexpr double kLeastStep = 0.02, kLeastDepth = 0.003, kLeastDeep = 0.08;
   const Surroundings around(picture, rim);
-  const double step =
-      std::max(kLeastStep, std::abs(MedianOf(around.head) - MedianOf(around.plate)));
+  const double plate = MedianOf(around.plate);
+  const double step = std::max(kLeastStep, std::abs(MedianOf(around.head) - plate));
   const ArrayXd ridge = RidgeOf(around);
   std::complex<double> harmonic = 0;
   for (int i = 0; i < kDirections; ++i) {
@@ -151,14 +153,15 @@ std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse&
   const Index from = around.RowsUpTo(kCrescentFrom), to = around.RowsUpTo(kCrescentTo);
   Index brightest = 0, darkest = 0;
   const double height = bright.light.segment(from, to - from).maxCoeff(&brightest) -
-                        std::max(bright.head, bright.plate);
+                        std::max({bright.head, bright.plate, plate});
   const double opposite =
-      dark.light.segment(from, to - from).maxCoeff() - std::max(dark.head, dark.plate);
+      dark.light.segment(from, to - from).maxCoeff() - std::max({dark.head, dark.plate, plate});
   if (height < std::max(kLeast, kOfStep * step) || opposite > kOpposite * height)
     return std::nullopt;
   Crescents found;
   found.to_light = (rim.shape * Surroundings::DirectionOf(lit)).normalized();
   found.bright = BordersAbout(around, bright, from + brightest);
+  if (found.bright.outer_px > kWidest * around.radius_px) return std::nullopt;
   const double depth =
       std::min(dark.head, dark.plate) - dark.light.segment(from, to - from).minCoeff(&darkest);
   if (depth > std::max(kLeastDepth, kLeastDeep * step)) {
