@@ -83,8 +83,10 @@ struct TwoSteps {
 TwoSteps FitTwoSteps(const TreadProfile& light) {
   constexpr double kNarrowest = 0.8, kWidest = 5, kFiner = 0.2;
   constexpr double kPerBlur = 1.6;  // narrower ones are blur
+  constexpr double kSoft = 1;       // px; what is softer is a soft shadow's slope
   TwoSteps best;
   for (const double blur : kBlurs) {
+    if (blur > kSoft) break;
     for (const double off : kOffs) {
       const TreadProfile outer = BlurredAt(off, blur);
       for (double width = std::max(kNarrowest, kPerBlur * blur); width <= kWidest;
@@ -101,9 +103,10 @@ TwoSteps FitTwoSteps(const TreadProfile& light) {
 bool MayHaveTread(const TreadProfile& light) {
   constexpr double kDarker = 1.5, kLeast = 0.025;  // of the step
   constexpr double kPlatePx = -6, kBesidePx = 1.5;
+  constexpr double kPlainWhite = 0.93;  // cuts off how light reaches the ground
   const auto at = [&](double px) { return light[std::lround((px - kFromPx) / kStepPx)]; };
   const double plate = at(kPlatePx), ground = at(kToPx), step = ground - plate;
-  if (ground < kDarker * plate) return false;
+  if (ground < kDarker * plate || ground > kPlainWhite) return false;
   return (at(-kBesidePx) - plate) - (ground - at(kBesidePx)) > kLeast * step;
 }
 
