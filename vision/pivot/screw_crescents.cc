@@ -131,39 +131,45 @@ ArrayXd RidgeOf(const Surroundings& around) {
   return (brightest - around.head.max(around.plate).max(MedianOf(around.plate))).max(0.0);
 }
 
-std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse& rim) {
-  constexpr double kLeast = 0.015, kOfStep = 0.7;  // light
-  constexpr double kToOneSide = 0.6;               // first harmonic over mean
-  constexpr double kOpposite = 0.35;               // of the height
-  constexpr double kWidest = 0.28;                 // out of the rim, of its radius
-  constexpr double kLeastStep = 0.02, kLeastDepth = 0.003, kLeastDeep = 0.08;
-  const Surroundings around(picture, rim);
-  const double plate = MedianOf(around.plate);
-  const double step = std::max(kLeastStep, std::abs(MedianOf(around.head) - plate));
+// The direction about which something bright lies, if it lies to one side; of kDirections.
+std::optional<int> LitDirection(const Surroundings& around) {
+  constexpr double kToOneSide = 0.6;  // first harmonic over mean
   const ArrayXd ridge = RidgeOf(around);
   std::complex<double> harmonic = 0;
   for (int i = 0; i < kDirections; ++i) {
     const Vector2d direction = Surroundings::DirectionOf(i);
     harmonic += ridge[i] * std::complex(direction.x(), direction.y());
   }
-  if (std::abs(harmonic) < kToOneSide * ridge.sum() || ridge.sum() == 0) return std::nullopt;
+  if (ridge.sum() == 0 || std::abs(harmonic) < kToOneSide * ridge.sum()) return std::nullopt;
   const double turns = std::arg(harmonic) / (2 * std::numbers::pi);
-  const int lit = (static_cast<int>(std::lround(turns * kDirections)) + kDirections) % kDirections;
-  const Sector bright(around, lit), dark(around, (lit + kDirections / 2) % kDirections);
-  const Index from = around.RowsUpTo(kCrescentFrom), to = around.RowsUpTo(kCrescentTo);
+  return (static_cast<int>(std::lround(turns * kDirections)) + kDirections) % kDirections;
+}
+
+std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse& rim) {
+  constexpr double kLeast = 0.015, kOfStep = 0.7;  // light
+  constexpr double kOpposite = 0.35;               // of the height
+  constexpr double kWidest = 0.28;                 // out of the rim, of its radius
+  constexpr double kLeastStep = 0.02, kLeastDepth = 0.003, kLeastDeep = 0.08;
+  const Surroundings around(picture, rim);
+  const std::optional<int> lit = LitDirection(around);
+  if (!lit) return std::nullopt;
+  const double plate = MedianOf(around.plate);
+  const double step = std::max(kLeastStep, std::abs(MedianOf(around.head) - plate));
+  const Sector bright(around, *lit), dark(around, (*lit + kDirections / 2) % kDirections);
+  const Index from = around.RowsUpTo(kCrescentFrom), count = around.RowsUpTo(kCrescentTo) - from;
   Index brightest = 0, darkest = 0;
-  const double height = bright.light.segment(from, to - from).maxCoeff(&brightest) -
+  const double height = bright.light.segment(from, count).maxCoeff(&brightest) -
                         std::max({bright.head, bright.plate, plate});
   const double opposite =
-      dark.light.segment(from, to - from).maxCoeff() - std::max({dark.head, dark.plate, plate});
+      dark.light.segment(from, count).maxCoeff() - std::max({dark.head, dark.plate, plate});
   if (height < std::max(kLeast, kOfStep * step) || opposite > kOpposite * height)
     return std::nullopt;
   Crescents found;
-  found.to_light = (rim.shape * Surroundings::DirectionOf(lit)).normalized();
+  found.to_light = (rim.shape * Surroundings::DirectionOf(*lit)).normalized();
   found.bright = BordersAbout(around, bright, from + brightest);
   if (found.bright.outer_px > kWidest * around.radius_px) return std::nullopt;
   const double depth =
-      std::min(dark.head, dark.plate) - dark.light.segment(from, to - from).minCoeff(&darkest);
+      std::min(dark.head, dark.plate) - dark.light.segment(from, count).minCoeff(&darkest);
   if (depth > std::max(kLeastDepth, kLeastDeep * step)) {
     found.dark = BordersAbout(around, dark, from + darkest);
     found.depth = depth / step;
