@@ -13,21 +13,19 @@
 namespace bladecurve {
 namespace {
 
-using Eigen::Index;
-
 // Light across an edge, from within the blade to the ground.
 constexpr double kFromPx = -7, kToPx = 4, kStepPx = 0.5;
-constexpr Index kSamples = static_cast<Index>((kToPx - kFromPx) / kStepPx) + 1;
+constexpr Eigen::Index kSamples = static_cast<Eigen::Index>((kToPx - kFromPx) / kStepPx) + 1;
 
 using TreadProfile = Eigen::Array<double, kSamples, 1>;
 
-double AcrossPx(Index i) { return kFromPx + kStepPx * static_cast<double>(i); }
+double AcrossPx(Eigen::Index i) { return kFromPx + kStepPx * static_cast<double>(i); }
 
 std::optional<TreadProfile> TreadProfileAcross(const cv::Mat& grey,
                                                const ToneCurve& tone,
                                                const LocatedEdge& edge) {
   TreadProfile light;
-  for (Index i = 0; i < kSamples; ++i) {
+  for (Eigen::Index i = 0; i < kSamples; ++i) {
     const auto at = TypicalLight(grey, tone, edge, AcrossPx(i));
     if (!at) return std::nullopt;
     light[i] = *at;
@@ -38,7 +36,7 @@ std::optional<TreadProfile> TreadProfileAcross(const cv::Mat& grey,
 // From 0 to 1 at a place, blurred.
 TreadProfile BlurredAt(double at_px, double blur_px) {
   TreadProfile step;
-  for (Index i = 0; i < kSamples; ++i)
+  for (Eigen::Index i = 0; i < kSamples; ++i)
     step[i] = 0.5 * std::erfc((at_px - AcrossPx(i)) / (blur_px * std::numbers::sqrt2));
   return step;
 }
@@ -54,7 +52,7 @@ template <typename... Steps>
 StepFit<sizeof...(Steps)> FitSteps(const TreadProfile& light, const Steps&... steps) {
   Eigen::Matrix<double, kSamples, 1 + sizeof...(Steps)> terms;
   terms.col(0).setOnes();
-  Index column = 1;
+  Eigen::Index column = 1;
   ((terms.col(column++) = steps.matrix()), ...);
   StepFit<sizeof...(Steps)> fit;
   fit.heights = (terms.transpose() * terms).ldlt().solve(terms.transpose() * light.matrix());
