@@ -137,7 +137,9 @@ void LeaveOwnNarrowShadow(const BladeView& view, LocatedEdge* edge, bool left) {
   constexpr double kDoubt = 0.35;                               // of the width
   if (edge->rival_px > 0 && edge->ambiguity > kAsGood) return;  // a shadow was left before
   const auto tread = FindTread(view.grey(), view.tone(), *edge);
-  if (!tread || BrightStripAlong(view, view.OuterSide(left), left)) return;
+  if (!tread) return;
+  const std::optional<LocatedEdge>& outer = view.OuterSide(left);
+  if (!outer || BrightStripAlong(view, outer, left)) return;
   if (!MayBeOneShadow(*tread, BrightStripAlong(view, view.OuterSide(!left), !left)) &&
       !MayBeOneShadow(*tread, BrightStripAlong(view, view.ShankSide(left), left)))
     return;
