@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "vision/edge/light_along.h"
+#include "vision/image/blurred_step.h"
 
 namespace bladecurve {
 namespace {
@@ -37,7 +37,7 @@ std::optional<TreadProfile> TreadProfileAcross(const cv::Mat& grey,
 TreadProfile BlurredAt(double at_px, double blur_px) {
   TreadProfile step;
   for (Eigen::Index i = 0; i < kSamples; ++i)
-    step[i] = 0.5 * std::erfc((at_px - AcrossPx(i)) / (blur_px * std::numbers::sqrt2));
+    step[i] = BlurredPower(AcrossPx(i) - at_px, 0, blur_px);
   return step;
 }
 
@@ -90,7 +90,7 @@ TwoSteps FitTwoSteps(const TreadProfile& light) {
       for (double width = std::max(kNarrowest, kPerBlur * blur); width <= kWidest;
            width += kFiner) {
         const StepFit<2> fit = FitSteps(light, BlurredAt(off - width, blur), outer);
-        if (fit.squares < best.fit.squares) best = {{off - width, width, 0, 0}, fit};
+        if (fit.squares < best.fit.squares) best = {{off - width, width, 0}, fit};
       }
     }
   }
@@ -124,8 +124,7 @@ std::optional<Tread> FindTread(const cv::Mat& grey,
   if (two.fit.squares > kBetter * one || std::sqrt(one / kSamples) < kMisfit * step)
     return std::nullopt;
   if (inner < kFaintest * step || inner > kMost * step) return std::nullopt;
-  two.tread.light = two.fit.heights[0] + inner;
-  two.tread.ground = two.fit.heights[0] + step;
+  two.tread.share = (two.fit.heights[0] + inner) / (two.fit.heights[0] + step);
   return two.tread;
 }
 

@@ -16,7 +16,7 @@ namespace bladecurve {
 struct Tread {
   double begins_px = 0;  // from the edge, negative: within it
   double width_px = 0;
-  double light = 0, ground = 0;  // linear
+  double share = 0;  // of the ground's light
 };
 
 // By two steps, blurred alike, that explain the light across the edge much better than a single one

@@ -26,18 +26,17 @@ constexpr int kDirections = 72;
 // where crescents lie.
 constexpr double kHeadFrom = 0.55, kHeadTo = 0.75, kPlateFrom = 1.35, kPlateTo = 1.55;
 constexpr double kCrescentFrom = 0.75, kCrescentTo = 1.3;
+constexpr double kStepPx = 0.5;
 
 // Light on the way out of a head: a row each half pixel, a column each direction.
 struct Surroundings {
-  double first = 0, step = 0;  // of the rows, of the radius
   double radius_px = 0;
+  double step = 0;  // between rows, of the radius
   ArrayXXd light;
   ArrayXd head, plate;  // typical light of each direction
 
   Surroundings(const cv::Mat& picture, const RimEllipse& rim)
-      : first(kHeadFrom), radius_px(rim.MeanRadius()) {
-    constexpr double kStepPx = 0.5;
-    step = kStepPx / radius_px;
+      : radius_px(rim.MeanRadius()), step(kStepPx / radius_px) {
     light.resize(RowsUpTo(kPlateTo), kDirections);
     for (int i = 0; i < kDirections; ++i) {
       for (Index row = 0; row < light.rows(); ++row)
@@ -51,11 +50,13 @@ struct Surroundings {
     const double angle = 2 * std::numbers::pi * i / kDirections;
     return {std::cos(angle), std::sin(angle)};
   }
-  [[nodiscard]] double At(Index row) const { return first + step * static_cast<double>(row); }
+  [[nodiscard]] double At(Index row) const { return kHeadFrom + step * static_cast<double>(row); }
   [[nodiscard]] Index RowsUpTo(double to) const {
-    return static_cast<Index>(std::floor((to - first) / step));
+    return static_cast<Index>(std::floor((to - kHeadFrom) / step));
   }
-  [[nodiscard]] double OutOfRimPx(double row) const { return (first + step * row - 1) * radius_px; }
+  [[nodiscard]] double OutOfRimPx(double row) const {
+    return (kHeadFrom + step * row - 1) * radius_px;
+  }
 
  private:
   [[nodiscard]] ArrayXd TypicalOf(Index from, Index to) const {

@@ -30,8 +30,8 @@ LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
 }
 
 // Where what casts a shadow is consistent, what holds the shadow, too, is not.
-void PreferCaster(const std::vector<Rung>& stage, std::size_t others, LadderResult* result) {
-  if (stage.size() <= others) return;
+void PreferCaster(const std::vector<Rung>& stage, LadderResult* result) {
+  if (stage.back().method != "caster") return;
   const LadderResult caster = Choose(stage.back().candidates);
   if (Consistent(caster)) result->best = caster.best;
 }
@@ -143,7 +143,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
           view.smooth ? "again, smoothed: noise may hide the blades" : "the cheapest look",
           [&] { return GreyRungs(view); });
   LadderResult result = Consider(in_grey, all);
-  PreferCaster(in_grey, 1, &result);
+  PreferCaster(in_grey, &result);
   const bool grey_suffices = Consistent(result);
   if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log_->Skipped("scene-colour", "grey gave a consistent scene");
@@ -156,7 +156,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
                                : "grey did not separate the blades"),
           [&] { return ColourRungs(view, looked->colour.emplace(SmallColour(view, kSmallSide))); });
   LadderResult in_colour = Consider(by_colour, all);
-  PreferCaster(by_colour, 2, &in_colour);
+  PreferCaster(by_colour, &in_colour);
   if (grey_suffices && !full) {
     result.several = result.several || in_colour.several;
     return result;

@@ -105,24 +105,22 @@ bool IsShadowOfWholeSide(const BladeView& view, const Margin& margin, bool left)
          !SharpMarginAlong(view, view.OuterSide(left), left);
 }
 
-// What lies along the inner side of an edge of dark metal and is brighter than that, narrow or
-// wide.
-std::optional<Tread> BrightStripAlong(const BladeView& view,
-                                      const std::optional<LocatedEdge>& side,
-                                      bool left) {
+// The share of the ground's light in what lies along the inner side of an edge of dark metal and is
+// brighter than that, narrow or wide.
+std::optional<double> ShareOfBrightStrip(const BladeView& view,
+                                         const std::optional<LocatedEdge>& side,
+                                         bool left) {
   if (!side) return std::nullopt;
-  if (const auto tread = FindTread(view.grey(), view.tone(), *side)) return tread;
+  if (const auto tread = FindTread(view.grey(), view.tone(), *side)) return tread->share;
   const auto margin = view.MarginOf(*side, left);
   if (!margin || margin->than_blade != Shadow::kBrighter) return std::nullopt;
-  return Tread{-margin->width_px, margin->width_px, margin->light, margin->ground};
+  return margin->light / margin->ground;
 }
 
-// Whether two strips take about the same share of light from their grounds.
-bool MayBeOneShadow(const Tread& a, const std::optional<Tread>& b) {
-  constexpr double kSameShare = 1.5;
-  if (!b) return false;
-  const double ratio = a.light / a.ground * b->ground / b->light;
-  return ratio < kSameShare && 1 < kSameShare * ratio;
+// Whether two strips may be of one shadow by their light.
+bool MayBeOneShadow(double share, const std::optional<double>& other_share) {
+  constexpr double kSame = 1.5;
+  return other_share && share < kSame * *other_share && *other_share < kSame * share;
 }
 
 // Every point, out of the blade.
@@ -139,9 +137,9 @@ void LeaveOwnNarrowShadow(const BladeView& view, LocatedEdge* edge, bool left) {
   const auto tread = FindTread(view.grey(), view.tone(), *edge);
   if (!tread) return;
   const std::optional<LocatedEdge>& outer = view.OuterSide(left);
-  if (!outer || BrightStripAlong(view, outer, left)) return;
-  if (!MayBeOneShadow(*tread, BrightStripAlong(view, view.OuterSide(!left), !left)) &&
-      !MayBeOneShadow(*tread, BrightStripAlong(view, view.ShankSide(left), left)))
+  if (!outer || ShareOfBrightStrip(view, outer, left)) return;
+  if (!MayBeOneShadow(tread->share, ShareOfBrightStrip(view, view.OuterSide(!left), !left)) &&
+      !MayBeOneShadow(tread->share, ShareOfBrightStrip(view, view.ShankSide(left), left)))
     return;
   MoveAcross(edge, tread->begins_px);
   SetRival(edge, tread->width_px);
@@ -149,11 +147,6 @@ void LeaveOwnNarrowShadow(const BladeView& view, LocatedEdge* edge, bool left) {
 }
 
 }  // namespace
-
-void LeaveNarrowShadow(const BladeView& view, BladeEdges* edges) {
-  LeaveOwnNarrowShadow(view, &edges->upper, true);
-  LeaveOwnNarrowShadow(view, &edges->lower, false);
-}
 
 LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left) {
   constexpr double kNearest = 1.2, kFarthest = 3.5;  // px; times the edge's uncertainty
@@ -174,6 +167,11 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
     edges->upper = WhereShadowBegins(view, std::move(edges->upper), *of_upper, true);
   if (of_lower && is_shadow(*of_lower, false))
     edges->lower = WhereShadowBegins(view, std::move(edges->lower), *of_lower, false);
+}
+
+void LeaveNarrowShadow(const BladeView& view, BladeEdges* edges) {
+  LeaveOwnNarrowShadow(view, &edges->upper, true);
+  LeaveOwnNarrowShadow(view, &edges->lower, false);
 }
 
 void DoubtDarkLine(const BladeView& view, bool left, LocatedEdge* edge) {
