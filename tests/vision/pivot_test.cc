@@ -205,12 +205,25 @@ TEST(FindPivot, TakesAFaintHeadNearALineAboutWhichTheEdgesMirrorEachOther) {
   EXPECT_EQ(source(1.2 * kAsidePx), "screw");
 }
 
-// The head gone, but for a bright arc of a rim about a place, as a low light leaves of it.
-cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px) {
-  constexpr double kRadiusPx = 10, kArcDeg = 215, kGlint = 230;
+struct Arc {
+  double radius_px = 10, deg = 215, grey = 230;
+  int width_px = 2;
+};
+
+// The head gone, but for an arc of a rim about a place, as a low light leaves of it.
+cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px, const Arc& arc = {}) {
   cv::Mat grey = WithoutHead(measured);
-  const cv::Size axes(Fixed(kRadiusPx), Fixed(kRadiusPx));
-  cv::ellipse(grey, Fixed(center_px), axes, 0, 0, kArcDeg, kGlint, 2, cv::LINE_AA, kFractionBits);
+  const cv::Size axes(Fixed(arc.radius_px), Fixed(arc.radius_px));
+  cv::ellipse(grey,
+              Fixed(center_px),
+              axes,
+              0,
+              0,
+              arc.deg,
+              arc.grey,
+              arc.width_px,
+              cv::LINE_AA,
+              kFractionBits);
   return grey;
 }
 
@@ -225,6 +238,37 @@ TEST(FindPivot, SeesAHalfLitHeadAboutWhichTheEdgesMirrorEachOther) {
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
   const Vector2d aside = head + kAsidePx * Vector2d(-axis.y(), axis.x());
   EXPECT_EQ(FindPivot(WithArcForHead(measured, aside), measured.scale, search).source, "geometry");
+}
+
+// In an unknown view, aside of the line about which the edges mirror each other.
+TEST(FindPivot, TakesAnArcForAHalfLitHeadRightWhereTheBladesTurn) {
+  constexpr Arc kArc{7, 220, 215, 1};
+  constexpr double kQuarterPx = 0.25 * kArc.radius_px, kSigmasAside = 0.6;
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  ScaleResult unknown_view = measured.scale;
+  unknown_view.sheet.reset();
+  const Pivot by_blades = PivotByBlades(unknown_view, measured.scene, edges);
+  const Vector2d along = measured.truth.axis_px, across(-along.y(), along.x());
+  const auto sigma_px = [&](const Vector2d& direction) {
+    return std::sqrt(direction.dot(by_blades.covariance_px2 * direction));
+  };
+  const auto place = [&](double sigmas_along) {
+    return by_blades.point_px + sigmas_along * sigma_px(along) * along +
+           kSigmasAside * sigma_px(across) * across;
+  };
+  const auto find = [&](const Vector2d& center_px) {
+    const cv::Mat grey = WithArcForHead(measured, center_px, kArc);
+    return FindPivot(grey, unknown_view, {measured.scene, edges, std::nullopt, std::nullopt});
+  };
+  for (const double sigmas : {-0.5, 0.0, 0.5}) {
+    const Pivot pivot = find(place(sigmas));
+    EXPECT_EQ(pivot.source, "screw") << sigmas;
+    EXPECT_LT((pivot.point_px - place(sigmas)).norm(), kQuarterPx) << sigmas;
+    EXPECT_GT(along.dot(pivot.covariance_px2 * along), kQuarterPx * kQuarterPx) << sigmas;
+  }
+  for (const double sigmas : {-2.0, 2.0})
+    EXPECT_EQ(find(place(sigmas)).source, "geometry") << sigmas;
 }
 
 TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {
