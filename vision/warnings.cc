@@ -48,6 +48,16 @@ bool IsBesideMarker(const LocatedBlade& blade, const std::vector<SeenMarker>& ma
   });
 }
 
+// Whether the edges pass the pivot less alike than those of scissors do. Where nobody knows the
+// tilt of the view, that may part them as well, but then what is told of them is as far off: about
+// a screw that is seen, it counts. Where somebody points to the pivot is not known as well.
+bool PassUnlike(const Pivot& pivot, const ScaleResult& scale) {
+  constexpr double kSlanted = 0.04;
+  if (scale.sheet) return AreUnlike(pivot.asymmetry);
+  if (pivot.source == "screw") return AreSuspect(pivot.asymmetry);
+  return std::abs(pivot.asymmetry) > kSlanted;
+}
+
 }  // namespace
 
 std::vector<std::string> WarningsOf(const Scene& scene,
@@ -56,7 +66,6 @@ std::vector<std::string> WarningsOf(const Scene& scene,
                                     const Pivot& pivot,
                                     const Blades& blades) {
   constexpr double kVaguePx = 1;
-  constexpr double kSlanted = 0.04;  // where nobody knows the tilt of the view
   std::vector<std::string> warnings = scene.warnings;
   warnings.insert(warnings.end(), map.warnings().begin(), map.warnings().end());
   const auto warn_if = [&](bool doubtful, const char* doubt) {
@@ -64,9 +73,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   };
   warn_if(pivot.source == "geometry", "pivot_not_seen");
   warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
-  const bool pass_unlike =
-      scale.sheet ? AreUnlike(pivot.asymmetry) : std::abs(pivot.asymmetry) > kSlanted;
-  warn_if(pass_unlike || blades.edges_part, "blades_asymmetric");
+  warn_if(PassUnlike(pivot, scale) || blades.edges_part, "blades_asymmetric");
   warn_if(pivot.bent, "blades_bent");  // neither edge confirms the other
   warn_if(blades.ends_contradict, "ends_unlike");
   warn_if(IsAmbiguous(blades.upper.edge), "upper_edge_ambiguous");
