@@ -37,6 +37,8 @@ constexpr std::array kDoubts = {
     Doubt{"pivot_not_seen",
           "no screw is seen, the blades alone say where they turn; light it, or give --pivot"},
     Doubt{"pivot_faint", "the screw hardly shows, or only in part; light it, or give --pivot"},
+    Doubt{"pivot_off_screw",
+          "a screw is plainly seen elsewhere than --pivot says; check the flag, or leave it out"},
     Doubt{"blades_asymmetric",
           "the edges are no mirror images: the view is oblique, or one is a shadow's or bevel's"},
     Doubt{"blades_bent",

@@ -73,6 +73,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
   };
   warn_if(pivot.source == "geometry", "pivot_not_seen");
   warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
+  warn_if(pivot.off_screw, "pivot_off_screw");
   warn_if(PassUnlike(pivot, scale) || blades.edges_part, "blades_asymmetric");
   warn_if(pivot.bent, "blades_bent");  // neither edge confirms the other
   warn_if(blades.ends_contradict, "ends_unlike");

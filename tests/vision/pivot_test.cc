@@ -210,6 +210,22 @@ struct Arc {
   int width_px = 2;
 };
 
+TEST(FindPivot, ObeysAHintAndSaysThatAScrewIsSeenElsewhere) {
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const auto off_screw = [&](const cv::Mat& grey, double aside_px) {
+    const Vector2d hint_px = measured.truth.screw_px + aside_px * measured.truth.axis_px;
+    const Pivot pivot = FindPivot(grey, measured.scale, {measured.scene, edges, hint_px});
+    EXPECT_EQ(pivot.source, "hint");
+    EXPECT_EQ(pivot.point_px, hint_px);
+    return pivot.off_screw;
+  };
+  EXPECT_FALSE(off_screw(measured.photo.grey(), 2));
+  EXPECT_TRUE(off_screw(measured.photo.grey(), 5));
+  EXPECT_TRUE(off_screw(measured.photo.grey(), -40));
+  EXPECT_FALSE(off_screw(WithoutHead(measured), 5));
+}
+
 // The head gone, but for an arc of a rim about a place, as a low light leaves of it.
 cv::Mat WithArcForHead(const Measured& measured, const Vector2d& center_px, const Arc& arc = {}) {
   cv::Mat grey = WithoutHead(measured);

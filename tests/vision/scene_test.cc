@@ -833,6 +833,22 @@ TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
   EXPECT_EQ(ReasonFor(narrow.bgr, hints), "");
 }
 
+TEST(MeasurePhoto, TakesNoPairThatDoesNotTurnAboutTheGivenPivot) {
+  const auto [picture, truth] = RenderScene(SmallScene());
+  const Eigen::Vector2d to_tips = 0.5 * (truth.upper.end_px + truth.lower.end_px) - truth.pivot_px;
+  const Eigen::Vector2d across = Eigen::Vector2d(-to_tips.y(), to_tips.x());
+  const auto about = [&, &pivot_px = truth.pivot_px](double along, double aside) {
+    SceneHints hints;
+    hints.pivot_px = pivot_px + along * to_tips + aside * across;
+    return ReasonFor(picture, hints);
+  };
+  EXPECT_EQ(about(0, 0), "");
+  EXPECT_EQ(about(0.02, 0.02), "") << "pointed to in a hurry";
+  EXPECT_EQ(about(0.6, 0), "not_scissors");
+  EXPECT_EQ(about(-1, 0), "not_scissors");
+  EXPECT_EQ(about(0, 0.4), "not_scissors");
+}
+
 TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   for (const Backdrop backdrop : {Backdrop::kPaper,
                                   Backdrop::kCloth,

@@ -42,6 +42,10 @@ TEST(WarningsOf, DoubtsAPivotThatIsNotSeenOrHardlySeen) {
   measured.pivot.screw.reset();
   measured.pivot.source = "geometry";
   EXPECT_TRUE(Warns(measured, "pivot_not_seen"));
+  measured.pivot.source = "hint";
+  EXPECT_FALSE(Warns(measured, "pivot_off_screw"));
+  measured.pivot.off_screw = true;
+  EXPECT_TRUE(Warns(measured, "pivot_off_screw"));
 }
 
 TEST(WarningsOf, DoubtsAnUpperEdgeThatIsKnownToMoreThanAPixelOnly) {

@@ -46,6 +46,14 @@ Estimate OverlapSeen(const ScaleResult& scale,
           mirror.sine * behind.sigma / length};
 }
 
+// Whether a screw that is plainly seen lies elsewhere than a hint: further off than somebody who
+// points to it misses it, and than its head is seen off its foot.
+bool LiesElsewhere(const std::optional<Screw>& screw, const Vector2d& hint_px) {
+  constexpr double kMissedPx = 3, kOff = 0.3;  // of the radius
+  return screw && screw->evidence > kBeyondDoubt &&
+         (screw->center_px - hint_px).norm() > std::max(kMissedPx, kOff * screw->semi_major_px);
+}
+
 // How far apart two places are, in standard uncertainties of their distance.
 double SigmasApart(const Pivot& a, const Pivot& b) {
   return std::sqrt(ChiSquare(a.point_px - b.point_px, a.covariance_px2 + b.covariance_px2));
@@ -73,17 +81,19 @@ void Compare(const ScaleResult& scale,
 Pivot FindPivot(const cv::Mat& grey, const ScaleResult& scale, const PivotSearch& search) {
   const EdgeMirror mirror = MirrorOf(search.edges);
   Pivot pivot = FromGeometry(search.scene, mirror);
+  const std::optional<Screw> head = FindHead({grey,
+                                              scale,
+                                              search.scene,
+                                              search.edges,
+                                              {pivot.point_px, pivot.covariance_px2},
+                                              search.at_joint});
   if (search.hint_px) {
     pivot.point_px = *search.hint_px;
     pivot.covariance_px2.setIdentity();
     pivot.source = "hint";
+    pivot.off_screw = LiesElsewhere(head, *search.hint_px);
   } else {
-    pivot.screw = FindHead({grey,
-                            scale,
-                            search.scene,
-                            search.edges,
-                            {pivot.point_px, pivot.covariance_px2},
-                            search.at_joint});
+    pivot.screw = head;
   }
   if (pivot.screw) {
     const PlacePx foot = FootBelow(*pivot.screw, scale, search.scene);

@@ -27,6 +27,7 @@ struct Pivot {
   double overlap = 0, overlap_sigma = 0;  // see EdgeOverlap
   double off_geometry = 0;     // standard uncertainties from where the blades alone put it
   std::optional<Screw> screw;  // if one is seen
+  bool off_screw = false;      // a hint, and a screw is plainly seen elsewhere
   Eigen::Vector2d geometry_px = Eigen::Vector2d::Zero();  // where the blades alone put it
 
   // In any direction, root mean square.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "vision/image/cross.h"
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/scene/beyond_tips.h"
@@ -166,18 +167,24 @@ void DoubtShiningGap(Candidate* candidate) {
   ApplyGrade(Grade(excess, kAsGround, kShines), "the gap shines like a blade", &pair);
 }
 
+// Whether a pair may turn about a place: near the line between its crotches, which shadows may put
+// further apart, but no nearer.
+bool LiesOnJoint(const Vector2d& place, const BladePair& pair) {
+  constexpr double kAside = 1, kBeyond = 1;  // of the shanks' width
+  const Vector2d from = pair.shank_crotch.value_or(pair.pivot), joint = pair.crotch - from;
+  const double length = std::max(1e-9, joint.norm());
+  const double along = (place - from).dot(joint) / length;
+  const double aside = Cross(joint, place - from) / length;
+  const double beyond = std::max(-along, along - length);
+  return std::abs(aside) < kAside * pair.shank_width && beyond < kBeyond * pair.shank_width;
+}
+
 bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredHints& hints) {
   if (hints.tips_direction) {
     const Vector2d towards = 0.5 * (pair.first.tip + pair.second.tip) - pair.pivot;
     if (towards.normalized().dot(*hints.tips_direction) < 0.5) return false;
   }
-  if (hints.pivot_px) {
-    // Of narrow scissors the silhouette puts the pivot a third of the blades' length off.
-    const double off = (at.FullFromSmall(pair.pivot) - *hints.pivot_px).norm();
-    if (off > std::max(2 * pair.shank_width, 0.7 * pair.first.length) * at.full_px_per_px())
-      return false;
-  }
-  return true;
+  return !hints.pivot_px || LiesOnJoint(at.SmallFromFull(*hints.pivot_px), pair);
 }
 
 // Fills in `agreeing`.
@@ -215,7 +222,11 @@ Rung SeenIn(const cv::Mat& mask,
     double quality = 0;
     for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
       if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
-      if (pair.quality < kWorthKeeping || !AgreesWithHints(pair, *like.at, hints)) continue;
+      if (pair.quality < kWorthKeeping) continue;
+      if (!AgreesWithHints(pair, *like.at, hints)) {
+        seen.contradicting = std::max(seen.contradicting, pair.quality);
+        continue;
+      }
       Candidate candidate = like;
       JudgeEdges(pair, &candidate);
       candidate.pair = std::move(pair);
@@ -235,6 +246,7 @@ Rung SeenIn(const cv::Mat& mask,
 void Add(Rung seen, Rung* rung) {
   std::move(seen.candidates.begin(), seen.candidates.end(), std::back_inserter(rung->candidates));
   rung->closed += seen.closed;
+  rung->contradicting = std::max(rung->contradicting, seen.contradicting);
   CountAgreeing(&rung->candidates);
 }
 

@@ -40,8 +40,9 @@ struct Candidate {
 struct Rung {
   std::string method;  // as of its candidates
   std::vector<Candidate> candidates;
-  int closed = 0;    // masks in which something looks like closed scissors
-  cv::Mat distance;  // from the background, or how sharply it is walled in; CV_32FC1
+  int closed = 0;            // masks in which something looks like closed scissors
+  double contradicting = 0;  // quality of the likeliest pair that hints speak against
+  cv::Mat distance;          // from the background, or how sharply it is walled in; CV_32FC1
 };
 
 // What one mask shows and does not contradict the hints; `like` gives picture, method and

@@ -22,10 +22,11 @@ LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
   for (const Rung& rung : stage) {
     all->candidates.insert(all->candidates.end(), rung.candidates.begin(), rung.candidates.end());
     all->closed = std::max(all->closed, rung.closed);
+    all->contradicting = std::max(all->contradicting, rung.contradicting);
   }
   LadderResult result = Choose(all->candidates);
   constexpr int kAgreeing = 3;  // fewer masks may show by chance what looks like that
-  result.closed = all->closed >= kAgreeing;
+  result.closed = all->closed >= kAgreeing && all->contradicting < kAcceptedQuality;
   return result;
 }
 

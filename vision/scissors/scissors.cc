@@ -42,12 +42,12 @@ struct Parts {
   std::optional<Screw> at_joint;
 };
 
-Parts LocateParts(const BladeView& view, const StoredHints& hints, StageLog* log) {
+Parts LocateParts(const BladeView& view, StageLog* log) {
   Parts parts;
   ParallelFor(2, [&](int part) {
     if (part == 0) {
       parts.blades = LocateAndTrim(view, log);
-    } else if (!hints.pivot_px) {
+    } else {
       parts.at_joint = LookAtJoint(view.grey(), view.scale(), view.scene());
     }
   });
@@ -117,7 +117,7 @@ void SettleEnds(const BladeView& view, const Pivot& pivot, Blades* blades) {
 
 Scissors LocateIn(const ScissorsView& seen, Scene scene, StageLog* log) {
   const BladeView view(seen.photo, seen.scale, scene);
-  Parts parts = LocateParts(view, seen.hints, log);
+  Parts parts = LocateParts(view, log);
   Pivot pivot = LocatePivot(view, seen.hints, parts, log);
   Reconcile(view, &pivot, &parts.blades, log);
   DropFalseHead(view, parts.blades, &pivot, log);
