@@ -677,6 +677,22 @@ TEST(ShanksCarryCatches, FindsTheCatchOfAShankThatLooksWide) {
   }
 }
 
+// The shanks part where a shadow fills their crotch on one side only, so that one catch seems to
+// lie further off.
+TEST(ShanksCarryCatches, FindsPlainlyHighOnesAtDistancesThatDiffer) {
+  for (const auto& [high_px, found] : {std::pair(8, false), std::pair(24, true)}) {
+    const DrawnShanks shanks([&, high = high_px](int side, cv::Mat& mask, const auto& at) {
+      cv::line(mask, at(0, 180), at(108, 385), 255, 12);
+      cv::circle(mask, at(120, 412), 30, 255, 6);
+      const int further = side > 0 ? 20 : 0;
+      const cv::Point from = at(72 + further / 2, 305 + further);
+      cv::line(mask, from, at(72 + further / 2 - high, 305 + further + high / 2), 255, 12);
+      return at(135, 438);
+    });
+    EXPECT_EQ(shanks.CarryCatches(), found) << high_px;
+  }
+}
+
 // Blades of another pair that lies on the first one, joint on joint.
 TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   constexpr double kBladePx = 200, kShankPx = 240;

@@ -117,7 +117,8 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
 
 bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
   constexpr double kHigh = 0.5;  // of the shanks' width; ragged masks of scissors reach 0.4
-  constexpr double kAlike = 0.1;
+  constexpr double kPlainlyHigh = 1.2;
+  constexpr double kAlike = 0.1, kPlainlyAlike = 0.2;  // of how far they lie from the crotch
   if (!pair.shank_crotch) return false;
   const Shank first_shank = ShankTo(pair.shank_first, pair.shank_second, *pair.shank_crotch);
   const Shank second_shank = ShankTo(pair.shank_second, pair.shank_first, *pair.shank_crotch);
@@ -128,9 +129,10 @@ bool ShanksCarryCatches(const cv::Mat& filled, const BladePair& pair) {
   const double inside_px = std::min(first.height_px, second.height_px);
   // The shanks of a pair are as wide; a shadow beside one of them is not its own.
   const double width_px = std::min(first.width_px, second.width_px);
-  const bool alike = std::abs(first.along_px - second.along_px) <
-                     kAlike * std::max(first.along_px, second.along_px);
-  if (inside_px <= kHigh * width_px || !alike) return false;
+  const double unlike =
+      std::abs(first.along_px - second.along_px) / std::max({first.along_px, second.along_px, 1.0});
+  const double most_unlike = inside_px > kPlainlyHigh * width_px ? kPlainlyAlike : kAlike;
+  if (inside_px <= kHigh * width_px || unlike >= most_unlike) return false;
   // What clings to the outer sides as well, as of veined marble, is no part of the instrument; but
   // rings that the frame cuts begin there.
   return pair.shanks_run_out || inside_px > std::max(rise_on(OuterSideOf(first_shank)).height_px,
