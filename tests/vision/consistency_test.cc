@@ -217,6 +217,22 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAboutWhichTheEdgesMirrorEachOt
   EXPECT_NO_THROW(RefuseUnconfirmedScene(outlined, {}, PivotSeen(0.05)));
 }
 
+TEST(RefuseUnconfirmedScene, AsksForNoHintThatIsGiven) {
+  Scene doubtful;
+  doubtful.quality = 0.5;
+  for (const std::string source : {"screw", "hint"}) {
+    Pivot pivot = PivotSeen(-0.1);
+    pivot.source = source;
+    try {
+      RefuseUnconfirmedScene(doubtful, {}, pivot);
+      ADD_FAILURE() << source;
+    } catch (const Refused& refused) {
+      const bool asks = std::string(refused.what()).find("--pivot X,Y") != std::string::npos;
+      EXPECT_EQ(asks, source == "screw") << refused.what();
+    }
+  }
+}
+
 TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   Scene again;
   again.quality = 0.95;

@@ -164,11 +164,11 @@ void RefuseUnlessUsable(const LadderResult& ladder,
     const std::string nearest = ladder.best.pair.doubt.empty()
                                     ? ""
                                     : "; the nearest thing fails because " + ladder.best.pair.doubt;
-    throw Refused(
-        Reason::kNotScissors,
-        "scene: no pair of open blades found" + nearest +
-            "; show the scissors open and whole on a plain ground, or point at them with --roi" +
-            WhatMarkersDo(markers) + WhatHintsSay(hints));
+    throw Refused(Reason::kNotScissors,
+                  "scene: no pair of open blades found" + nearest +
+                      "; show the scissors open and whole on a plain ground" +
+                      (hints.roi_px ? "" : ", or point at them with --roi") +
+                      WhatMarkersDo(markers) + WhatHintsSay(hints));
   }
   const BladePair& pair = ladder.best.pair;
   if (RunsOut(pair)) {

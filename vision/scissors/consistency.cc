@@ -169,14 +169,16 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
         "picture, does not tell for certain that these are scissors; show the rings as "
         "well, light the screw, or say where it is: --pivot X,Y");
   }
-  throw Refused(Reason::kLowContrast,
-                "edges: shadows or a ground as bright as the blades leave " +
-                    std::string(scene.outlined ? "nothing but lines to tell them by"
-                                               : "it in doubt what is blade") +
-                    ", and " +
-                    (seen ? "these do not mirror each other about the pivot"
-                          : "no screw is seen that would confirm where the blades are") +
-                    "; use another ground or softer light, or say where the screw is: --pivot X,Y");
+  throw Refused(
+      Reason::kLowContrast,
+      "edges: shadows or a ground as bright as the blades leave " +
+          std::string(scene.outlined ? "nothing but lines to tell them by"
+                                     : "it in doubt what is blade") +
+          ", and " +
+          (seen ? "these do not mirror each other about the pivot"
+                : "no screw is seen that would confirm where the blades are") +
+          "; use another ground or softer light, or " +
+          (pivot.source == "hint" ? "check --pivot" : "say where the screw is: --pivot X,Y"));
 }
 
 }  // namespace bladecurve
