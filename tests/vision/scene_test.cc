@@ -879,26 +879,51 @@ TEST(SceneFinder, MeasuresOnEveryBackdrop) {
   }
 }
 
-// The scissors on a mat with a printed grid of lines as bright as the blades.
-cv::Mat OnCuttingMat(SceneSpec spec) {
-  constexpr int kCellPx = 28, kLinePx = 3, kScissors = 12;
+// The scissors on another ground: print(ground) paints it.
+template <typename Print>
+cv::Mat OnGround(SceneSpec spec, const Print& print) {
+  constexpr int kScissors = 12;
   spec.backdrop = Backdrop::kDrape;
   spec.drape_rgb = {0.01, 0.05, 0.03};
   spec.texture = spec.light.shadow = spec.light.contact_shadow = 0;
   const cv::Mat picture = RenderScene(spec).bgr;
   spec.with_scissors = false;
-  const cv::Mat mat = RenderScene(spec).bgr;
-  cv::Mat differs, printed = mat.clone();
-  cv::absdiff(picture, mat, differs);
+  cv::Mat differs, ground = RenderScene(spec).bgr;
+  cv::absdiff(picture, ground, differs);
   cv::cvtColor(differs, differs, cv::COLOR_BGR2GRAY);
+  print(ground);
+  cv::GaussianBlur(ground, ground, {}, 0.8);
+  picture.copyTo(ground, differs > kScissors);
+  return ground;
+}
+
+// A mat with a printed grid of lines as bright as the blades.
+cv::Mat OnCuttingMat(const SceneSpec& spec) {
+  constexpr int kCellPx = 28, kLinePx = 3;
   const cv::Scalar light(156, 195, 130);
-  for (int at = -picture.cols; at < 2 * picture.cols; at += kCellPx) {
-    cv::line(printed, {at, 0}, {at + picture.rows / 2, picture.rows}, light, kLinePx);
-    cv::line(printed, {0, at}, {picture.cols, at - picture.cols / 2}, light, kLinePx);
-  }
-  cv::GaussianBlur(printed, printed, {}, 0.8);
-  picture.copyTo(printed, differs > kScissors);
-  return printed;
+  return OnGround(spec, [&](cv::Mat& mat) {
+    for (int at = -mat.cols; at < 2 * mat.cols; at += kCellPx) {
+      cv::line(mat, {at, 0}, {at + mat.rows / 2, mat.rows}, light, kLinePx);
+      cv::line(mat, {0, at}, {mat.cols, at - mat.cols / 2}, light, kLinePx);
+    }
+  });
+}
+
+// Planks in several paints, darker and brighter than the blades.
+cv::Mat OnPaintedPlanks(const SceneSpec& spec) {
+  constexpr int kPlankPx = 46;
+  const std::array paints{
+      cv::Scalar(150, 120, 20), cv::Scalar(30, 60, 90), cv::Scalar(40, 215, 235)};
+  return OnGround(spec, [&](cv::Mat& planks) {
+    for (int at = 0, k = 0; at < planks.cols + planks.rows; at += kPlankPx, ++k) {
+      const cv::Scalar& paint = paints[static_cast<std::size_t>(k) % paints.size()];
+      const std::vector<cv::Point> plank{{at, 0},
+                                         {at + kPlankPx, 0},
+                                         {at + kPlankPx - planks.rows, planks.rows},
+                                         {at - planks.rows, planks.rows}};
+      cv::fillConvexPoly(planks, plank, paint);
+    }
+  });
 }
 
 TEST(SceneFinder, SeesScissorsOnACuttingMat) {
@@ -907,6 +932,21 @@ TEST(SceneFinder, SeesScissorsOnACuttingMat) {
   const Photo photo = testing::Measured::PhotoOf(OnCuttingMat(spec));
   StageLog log;
   const Scene scene = SceneFinder(photo, {}, {}, &log).Likeliest();
+  const double near_px = 0.1 * (truth.upper.end_px - truth.pivot_px).norm();
+  EXPECT_LT((scene.left.tip_px - truth.upper.end_px).norm(), near_px);
+  EXPECT_LT((scene.right.tip_px - truth.lower.end_px).norm(), near_px);
+}
+
+TEST(SceneFinder, SeesScissorsThatThePivotPointsAtOnPaintedPlanks) {
+  const SceneSpec spec = SmallScene();
+  const SceneTruth truth = TruthOf(spec);
+  const cv::Mat picture = OnPaintedPlanks(spec);
+  EXPECT_NE(ReasonFor(picture), "");
+  const Photo photo = testing::Measured::PhotoOf(picture);
+  StageLog log;
+  StoredHints hints;
+  hints.pivot_px = truth.pivot_px;
+  const Scene scene = SceneFinder(photo, {}, hints, &log).Likeliest();
   const double near_px = 0.1 * (truth.upper.end_px - truth.pivot_px).norm();
   EXPECT_LT((scene.left.tip_px - truth.upper.end_px).norm(), near_px);
   EXPECT_LT((scene.right.tip_px - truth.lower.end_px).norm(), near_px);

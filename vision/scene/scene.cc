@@ -143,6 +143,13 @@ std::string WhatHintsSay(const StoredHints& hints) {
   return names.empty() ? "" : "; or it is otherwise than said: check " + names;
 }
 
+// What may rescue a picture, but for what was given.
+std::string HowToPoint(const StoredHints& hints) {
+  if (hints.pivot_px) return "";
+  if (hints.roi_px) return ", or say where the screw is: --pivot X,Y";
+  return ", or point at them: --pivot X,Y or --roi X,Y,W,H";
+}
+
 std::string WhatMarkersDo(const std::vector<SeenMarker>& markers) {
   if (markers.empty()) return "";
   return "; the paper of markers is left out: lay them a marker's width away from the blades";
@@ -166,15 +173,17 @@ void RefuseUnlessUsable(const LadderResult& ladder,
                                     : "; the nearest thing fails because " + ladder.best.pair.doubt;
     throw Refused(Reason::kNotScissors,
                   "scene: no pair of open blades found" + nearest +
-                      "; show the scissors open and whole on a plain ground" +
-                      (hints.roi_px ? "" : ", or point at them with --roi") +
+                      "; show the scissors open and whole on a plain ground" + HowToPoint(hints) +
                       WhatMarkersDo(markers) + WhatHintsSay(hints));
   }
   const BladePair& pair = ladder.best.pair;
   if (RunsOut(pair)) {
     throw Refused(Reason::kBladesNotVisible,
                   std::string("scene: a blade runs out of ") + WhereLooked(hints) +
-                      "; both tips must be inside it");
+                      "; both tips must be inside it" +
+                      (hints.pivot_px ? ""
+                                      : "; if they are, on a ground with a pattern, say where the "
+                                        "screw is: --pivot X,Y"));
   }
   const double taper = std::min(pair.first.taper, pair.second.taper);
   if (pair.shanks_run_out && taper > kTapers && !hints.tips_direction) {

@@ -232,7 +232,7 @@ Rung SeenIn(const cv::Mat& mask,
       candidate.pair = std::move(pair);
       if (!like.outlined) DoubtSoftEdges(&candidate);
       DoubtEdgesOfHidden(hidden, &candidate);
-      DoubtShiningGap(&candidate);
+      if (!like.patterned) DoubtShiningGap(&candidate);
       candidate.mask = mask;
       quality = candidate.pair.quality;
       seen.candidates.push_back(std::move(candidate));

@@ -22,9 +22,11 @@ struct Candidate {
   BladePair pair;
   std::shared_ptr<const ScaledImage> at;
   cv::Mat mask;
-  std::string method;  // "grey", "caster", "colour", "shadow-blind", "flood", "regions", "broad"
+  std::string
+      method;  // "grey", "caster", "colour", "shadow-blind", "flood", "regions", "broad", "cut"
   double threshold = 0;
-  bool outlined = false;  // the mask ends at sharp borders, of which a soft shadow has none
+  bool outlined = false;   // the mask ends at sharp borders, of which a soft shadow has none
+  bool patterned = false;  // the ground is taken to be, so that anything may lie between the blades
   double strength =
       0;  // mean transition across the inner edges: the right threshold has the strongest
   double sharpness = 0;  // of the softer inner edge: 1 for a step, 0.3 for a soft shadow

@@ -136,6 +136,11 @@ LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
 LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
   const SceneView& view = looked->view;
   const bool full = plan == Plan::kFull;
+  const bool points = view.hints.pivot_px || view.hints.roi_px;
+  // What runs out of the picture is refused, unless the user points at something else.
+  const auto suffices = [&](const LadderResult& seen) {
+    return Consistent(seen) && (!points || ShowsWholeBlades(seen));
+  };
   const auto see = [&](const char* stage, const std::string& why, const auto& look) {
     return See(stage, why, looked, look);
   };
@@ -145,7 +150,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
           [&] { return GreyRungs(view); });
   LadderResult result = Consider(in_grey, all);
   PreferCaster(in_grey, &result);
-  const bool grey_suffices = Consistent(result);
+  const bool grey_suffices = suffices(result);
   if (grey_suffices && !full && !ShowsAnother(result.best)) {
     log_->Skipped("scene-colour", "grey gave a consistent scene");
     return result;
@@ -163,7 +168,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
     return result;
   }
   result = in_colour;
-  if (Consistent(result) && !full) {
+  if (suffices(result) && !full) {
     log_->Skipped("scene-flood", "colour gave a consistent scene");
     return result;
   }
@@ -182,7 +187,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
                         WhyRun(full, "the flood ran into the blades"),
                         [&] { return std::vector{RegionRung(view, *looked->outlines)}; }),
                     all);
-  result.climbed = true;
+  result.climbed = !points;
   if (ShowsWholeBlades(result) && !full) {
     log_->Skipped("scene-broad", "the regions show blades");
     return result;
@@ -197,11 +202,25 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
                    }),
                &broad);
   // Without the slender parts, shanks are left that look like blades, but not like whole scissors.
-  if (ShowsWholeBlades(result) || !ShowsWholeBlades(in_broad) || !Consistent(in_broad))
+  if (!ShowsWholeBlades(result) && ShowsWholeBlades(in_broad) && Consistent(in_broad)) {
+    *all = std::move(broad);
+    in_broad.climbed = true;
+    return in_broad;
+  }
+  if (!points) return result;
+  Rung cut;
+  LadderResult in_cut = Consider(see("scene-cut",
+                                     WhyRun(full, "hints tell scissors from a patterned ground"),
+                                     [&] { return std::vector{CutRung(view, *looked->colour)}; }),
+                                 ShowsWholeBlades(result) ? all : &cut);
+  in_cut.climbed = true;
+  if (ShowsWholeBlades(result)) return in_cut;
+  if (!ShowsWholeBlades(in_cut)) {
+    result.climbed = true;
     return result;
-  *all = std::move(broad);
-  in_broad.climbed = true;
-  return in_broad;
+  }
+  *all = std::move(cut);
+  return in_cut;
 }
 
 }  // namespace bladecurve

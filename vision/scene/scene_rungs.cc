@@ -7,12 +7,14 @@
 #include <iterator>
 #include <memory>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <utility>
 
 #include "vision/image/disk.h"
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 #include "vision/scene/flood.h"
+#include "vision/scene/graph_cut.h"
 #include "vision/scene/region_merging.h"
 #include "vision/scene/shadow_caster.h"
 #include "vision/scene/sharp_gradient.h"
@@ -129,6 +131,19 @@ void AddLevels(const cv::Mat& levels,
   rung->distance = levels;
 }
 
+// The thing at --pivot: what lies close about it is surely of its colours, what lies further about
+// it shows more of them. Without the hint, nobody points.
+std::vector<std::optional<PointedAt>> PointedAtBy(const StoredHints& hints, const ScaledImage& at) {
+  constexpr double kAbout[] = {0.025, 0.06};  // of the longest side
+  if (!hints.pivot_px) return {std::nullopt};
+  const Eigen::Vector2d place = at.SmallFromFull(*hints.pivot_px);
+  const int longest = std::max(at.pixels.cols, at.pixels.rows);
+  std::vector<std::optional<PointedAt>> things;
+  for (const double about : kAbout)
+    things.push_back(PointedAt{{cvRound(place.x()), cvRound(place.y())}, about * longest});
+  return things;
+}
+
 // As level(walls) gives them for each of the walls.
 template <typename Level>
 std::vector<cv::Mat> LevelsOf(const Outlines& outlines, const Level& level) {
@@ -203,6 +218,24 @@ Rung ShadowBlindRung(const SceneView& view, const ColourPictures& colour) {
 Rung BroadRung(const SceneView& view, const ColourPictures& colour, const cv::Mat& distance) {
   const Candidate like{{}, colour.lab, {}, "broad"};
   return ThresholdAll(WithoutLines(distance), colour.ignore, like, view.hints);
+}
+
+Rung CutRung(const SceneView& view, const ColourPictures& colour) {
+  constexpr int kLinePx = 3;  // no wider ones are left of a pattern
+  Candidate like{{}, colour.lab, {}, "cut"};
+  like.patterned = true;
+  const std::vector<std::optional<PointedAt>> things = PointedAtBy(view.hints, *colour.lab);
+  const std::vector<cv::Mat> masks = ParallelMap(static_cast<int>(things.size()), [&](int i) {
+    cv::Mat mask = CutOut(colour.bgr, things[static_cast<std::size_t>(i)]);
+    if (!colour.ignore.empty()) mask.setTo(0, colour.ignore);
+    cv::morphologyEx(mask, mask, cv::MORPH_OPEN, Disk(kLinePx));
+    return mask;
+  });
+  Rung rung;
+  rung.method = like.method;
+  for (const cv::Mat& mask : masks) Add(SeenIn(mask, like, colour.ignore, view.hints), &rung);
+  masks.front().convertTo(rung.distance, CV_32F);
+  return rung;
 }
 
 Outlines OutlinesIn(const SceneView& view) {

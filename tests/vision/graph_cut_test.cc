@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/graph_cut.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+namespace bladecurve {
+namespace {
+
+const cv::Size kSize(400, 300);
+const PointedAt kCross{{200, 150}, 24};
+
+// Two bars that cross; one goes on out of the picture.
+cv::Mat Bars() {
+  cv::Mat mask = cv::Mat::zeros(kSize, CV_8UC1);
+  cv::line(mask, {90, 90}, {310, 210}, 255, 29);
+  cv::line(mask, {90, 205}, {420, 60}, 255, 29);
+  return mask;
+}
+
+// Grey, on stripes that are darker and brighter than that, all noisy.
+cv::Mat BarsOnStripes() {
+  constexpr int kStripePx = 30;
+  constexpr double kNoise = 4;
+  cv::Mat picture(kSize, CV_8UC3, cv::Scalar(40, 60, 110)), noise(kSize, CV_16SC3), noisy;
+  for (int y = 0; y < kSize.height; y += 2 * kStripePx)
+    picture.rowRange(y, y + kStripePx) = cv::Scalar(150, 215, 235);
+  picture.setTo(cv::Scalar::all(140), Bars());
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
+  cv::add(picture, noise, noisy, cv::noArray(), CV_8U);
+  return noisy;
+}
+
+double Agreement(const cv::Mat& a, const cv::Mat& b) {
+  return static_cast<double>(cv::countNonZero(a & b)) / cv::countNonZero(a | b);
+}
+
+TEST(CutOut, TakesWhatLiesAboutAPlaceOutOfAPatternUpToThePicturesBorder) {
+  const cv::Mat mask = CutOut(BarsOnStripes(), kCross);
+  EXPECT_GT(Agreement(mask, Bars()), 0.93);
+  EXPECT_NE(cv::countNonZero(mask.col(kSize.width - 1)), 0);
+  EXPECT_EQ(cv::countNonZero(mask.col(0)), 0);
+}
+
+TEST(CutOut, TakesWithoutAPlaceWhatIsUnlikeTheBorder) {
+  cv::Mat within = BarsOnStripes();
+  within = within.colRange(0, 340);
+  EXPECT_GT(Agreement(CutOut(within, std::nullopt), Bars().colRange(0, 340)), 0.9);
+}
+
+TEST(CutOut, GivesTheSameMaskOfTheSamePicture) {
+  const cv::Mat picture = BarsOnStripes();
+  const cv::Mat mask = CutOut(picture, kCross);
+  cv::theRNG().uniform(0, 1);
+  EXPECT_EQ(cv::countNonZero(mask != CutOut(picture, kCross)), 0);
+}
+
+}  // namespace
+}  // namespace bladecurve

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/graph_cut.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace bladecurve {
+namespace {
+
+// A picture without its border, which stands for the ground.
+cv::Rect WithinBorder(const cv::Size& size) {
+  constexpr double kBorder = 0.02;  // of the longest side
+  const int px = std::max(1, cvRound(kBorder * std::max(size.width, size.height)));
+  return {px, px, size.width - 2 * px, size.height - 2 * px};
+}
+
+// What is known of each pixel, as cv::grabCut takes it.
+cv::Mat Known(const cv::Size& size, const std::optional<PointedAt>& thing) {
+  constexpr double kSurely = 0.2;  // of what is likely
+  cv::Mat known(size, CV_8UC1, cv::Scalar(cv::GC_BGD));
+  known(WithinBorder(size)) = thing ? cv::GC_PR_BGD : cv::GC_PR_FGD;
+  if (!thing) return known;
+  cv::circle(known, thing->place, cvRound(thing->about_px), cv::GC_PR_FGD, cv::FILLED);
+  cv::circle(known, thing->place, cvRound(kSurely * thing->about_px), cv::GC_FGD, cv::FILLED);
+  return known;
+}
+
+}  // namespace
+
+cv::Mat CutOut(const cv::Mat& bgr, const std::optional<PointedAt>& thing) {
+  constexpr int kIterations = 6;
+  cv::Mat lab, of_ground, of_thing, known = Known(bgr.size(), thing);
+  cv::cvtColor(bgr, lab, cv::COLOR_BGR2Lab);
+  const cv::RNG before = cv::theRNG();
+  cv::theRNG() = cv::RNG(1);  // the clusters begin at random
+  cv::grabCut(lab, known, {}, of_ground, of_thing, kIterations, cv::GC_INIT_WITH_MASK);
+  cv::theRNG() = before;
+  const cv::Mat cut = (known & 1) != 0;  // GC_FGD or GC_PR_FGD
+  const cv::Rect within = WithinBorder(bgr.size());
+  cv::Mat mask;
+  cv::copyMakeBorder(cut(within),
+                     mask,
+                     within.y,
+                     bgr.rows - within.br().y,
+                     within.x,
+                     bgr.cols - within.br().x,
+                     cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
+  return mask;
+}
+
+}  // namespace bladecurve
