@@ -60,6 +60,12 @@ cv::Rect RegionInStored(const Photo& photo, const std::array<double, 4>& region)
           static_cast<int>(std::lround(high.y() - low.y())) + 1};
 }
 
+void RequireWithin(const cv::Rect& region, const Vector2d& pivot_px) {
+  const cv::Rect2d reaches(region.x - 0.5, region.y - 0.5, region.width, region.height);
+  if (reaches.contains({pivot_px.x(), pivot_px.y()})) return;
+  throw std::invalid_argument("hints: the pivot lies outside the region to look at");
+}
+
 }  // namespace
 
 StoredHints InStored(const Photo& photo, const SceneHints& hints) {
@@ -67,6 +73,7 @@ StoredHints InStored(const Photo& photo, const SceneHints& hints) {
   if (hints.pivot_px) stored.pivot_px = PivotInStored(photo, *hints.pivot_px);
   if (hints.tips_toward) stored.tips_direction = DirectionInStored(photo, *hints.tips_toward);
   if (hints.roi_px) stored.roi_px = RegionInStored(photo, *hints.roi_px);
+  if (stored.pivot_px && stored.roi_px) RequireWithin(*stored.roi_px, *stored.pivot_px);
   return stored;
 }
 

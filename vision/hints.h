@@ -27,7 +27,8 @@ struct StoredHints {
   std::optional<Eigen::Vector2d> tips_direction;  // unit
 };
 
-// Throws std::invalid_argument for a pivot or a region outside the picture.
+// Throws std::invalid_argument for a pivot or a region outside the picture, or the one outside the
+// other.
 [[nodiscard]] StoredHints InStored(const Photo& photo, const SceneHints& hints);
 
 }  // namespace bladecurve

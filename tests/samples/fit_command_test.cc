@@ -229,6 +229,10 @@ TEST(Fit, HintsOutsideThePictureAreWrongUse) {
     EXPECT_EQ(run.exit_code, 2) << flag;
     EXPECT_NE(run.standard_error.find("outside the picture"), std::string::npos) << flag;
   }
+  const ProgramRun apart = RunBladecurve(
+      {"fit", "a.jpg", "--mm-per-px", "0.2", "--pivot", "300,200", "--roi", "0,0,200,300"}, folder);
+  EXPECT_EQ(apart.exit_code, 2);
+  EXPECT_NE(apart.standard_error.find("outside the region"), std::string::npos);
 }
 
 TEST(Fit, PixelsCutNothing) {

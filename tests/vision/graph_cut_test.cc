@@ -52,6 +52,18 @@ TEST(CutOut, TakesWithoutAPlaceWhatIsUnlikeTheBorder) {
   EXPECT_GT(Agreement(CutOut(within, std::nullopt), Bars().colRange(0, 340)), 0.9);
 }
 
+TEST(CutOut, TakesPicturesOfAnyShapeAndColour) {
+  for (const cv::Size& size : {cv::Size(640, 17), cv::Size(640, 1), cv::Size(9, 300)}) {
+    for (const bool noisy : {false, true}) {
+      cv::Mat picture(size, CV_8UC3, cv::Scalar::all(128));
+      if (noisy) cv::RNG(1).fill(picture, cv::RNG::UNIFORM, 0, 256);
+      for (const cv::Point& place : {cv::Point(0, 0), cv::Point(size.width - 1, size.height - 1)})
+        EXPECT_EQ(CutOut(picture, PointedAt{place, 10}).size(), size);
+      EXPECT_EQ(CutOut(picture, std::nullopt).size(), size);
+    }
+  }
+}
+
 TEST(CutOut, GivesTheSameMaskOfTheSamePicture) {
   const cv::Mat picture = BarsOnStripes();
   const cv::Mat mask = CutOut(picture, kCross);

@@ -11,7 +11,8 @@ namespace {
 // A picture without its border, which stands for the ground.
 cv::Rect WithinBorder(const cv::Size& size) {
   constexpr double kBorder = 0.02;  // of the longest side
-  const int px = std::max(1, cvRound(kBorder * std::max(size.width, size.height)));
+  const int wanted_px = cvRound(kBorder * std::max(size.width, size.height));
+  const int px = std::clamp(wanted_px, 1, std::min(size.width, size.height) / 4);
   return {px, px, size.width - 2 * px, size.height - 2 * px};
 }
 
@@ -30,6 +31,8 @@ cv::Mat Known(const cv::Size& size, const std::optional<PointedAt>& thing) {
 
 cv::Mat CutOut(const cv::Mat& bgr, const std::optional<PointedAt>& thing) {
   constexpr int kIterations = 6;
+  constexpr int kLeastSide = 8;  // px; a strip shows no thing
+  if (std::min(bgr.cols, bgr.rows) < kLeastSide) return cv::Mat::zeros(bgr.size(), CV_8UC1);
   cv::Mat lab, of_ground, of_thing, known = Known(bgr.size(), thing);
   cv::cvtColor(bgr, lab, cv::COLOR_BGR2Lab);
   const cv::RNG before = cv::theRNG();

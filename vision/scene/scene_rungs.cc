@@ -139,8 +139,9 @@ std::vector<std::optional<PointedAt>> PointedAtBy(const StoredHints& hints, cons
   const Eigen::Vector2d place = at.SmallFromFull(*hints.pivot_px);
   const int longest = std::max(at.pixels.cols, at.pixels.rows);
   std::vector<std::optional<PointedAt>> things;
-  for (const double about : kAbout)
-    things.push_back(PointedAt{{cvRound(place.x()), cvRound(place.y())}, about * longest});
+  const cv::Point nearest(std::clamp(cvRound(place.x()), 0, at.pixels.cols - 1),
+                          std::clamp(cvRound(place.y()), 0, at.pixels.rows - 1));
+  for (const double about : kAbout) things.push_back(PointedAt{nearest, about * longest});
   return things;
 }
 
