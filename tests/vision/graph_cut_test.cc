@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
-#include <optional>
 
 namespace bladecurve {
 namespace {
@@ -46,12 +45,6 @@ TEST(CutOut, TakesWhatLiesAboutAPlaceOutOfAPatternUpToThePicturesBorder) {
   EXPECT_EQ(cv::countNonZero(mask.col(0)), 0);
 }
 
-TEST(CutOut, TakesWithoutAPlaceWhatIsUnlikeTheBorder) {
-  cv::Mat within = BarsOnStripes();
-  within = within.colRange(0, 340);
-  EXPECT_GT(Agreement(CutOut(within, std::nullopt), Bars().colRange(0, 340)), 0.9);
-}
-
 TEST(CutOut, TakesPicturesOfAnyShapeAndColour) {
   for (const cv::Size& size : {cv::Size(640, 17), cv::Size(640, 1), cv::Size(9, 300)}) {
     for (const bool noisy : {false, true}) {
@@ -59,7 +52,6 @@ TEST(CutOut, TakesPicturesOfAnyShapeAndColour) {
       if (noisy) cv::RNG(1).fill(picture, cv::RNG::UNIFORM, 0, 256);
       for (const cv::Point& place : {cv::Point(0, 0), cv::Point(size.width - 1, size.height - 1)})
         EXPECT_EQ(CutOut(picture, PointedAt{place, 10}).size(), size);
-      EXPECT_EQ(CutOut(picture, std::nullopt).size(), size);
     }
   }
 }

@@ -17,19 +17,18 @@ cv::Rect WithinBorder(const cv::Size& size) {
 }
 
 // What is known of each pixel, as cv::grabCut takes it.
-cv::Mat Known(const cv::Size& size, const std::optional<PointedAt>& thing) {
+cv::Mat Known(const cv::Size& size, const PointedAt& thing) {
   constexpr double kSurely = 0.2;  // of what is likely
   cv::Mat known(size, CV_8UC1, cv::Scalar(cv::GC_BGD));
-  known(WithinBorder(size)) = thing ? cv::GC_PR_BGD : cv::GC_PR_FGD;
-  if (!thing) return known;
-  cv::circle(known, thing->place, cvRound(thing->about_px), cv::GC_PR_FGD, cv::FILLED);
-  cv::circle(known, thing->place, cvRound(kSurely * thing->about_px), cv::GC_FGD, cv::FILLED);
+  known(WithinBorder(size)) = cv::GC_PR_BGD;
+  cv::circle(known, thing.place, cvRound(thing.about_px), cv::GC_PR_FGD, cv::FILLED);
+  cv::circle(known, thing.place, cvRound(kSurely * thing.about_px), cv::GC_FGD, cv::FILLED);
   return known;
 }
 
 }  // namespace
 
-cv::Mat CutOut(const cv::Mat& bgr, const std::optional<PointedAt>& thing) {
+cv::Mat CutOut(const cv::Mat& bgr, const PointedAt& thing) {
   constexpr int kIterations = 6;
   constexpr int kLeastSide = 8;  // px; a strip shows no thing
   if (std::min(bgr.cols, bgr.rows) < kLeastSide) return cv::Mat::zeros(bgr.size(), CV_8UC1);

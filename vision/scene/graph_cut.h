@@ -3,7 +3,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <optional>
 
 namespace bladecurve {
 
@@ -14,9 +13,9 @@ struct PointedAt {
 };
 
 // What is pointed at, whatever the pattern of the ground: mixtures of the colours of both, and the
-// cheapest outline between them (Rother, Kolmogorov and Blake 2004, "GrabCut"); where nobody
-// points, what is unlike the picture's border. CV_8UC1, 0 or 255; bgr: CV_8UC3. What reaches the
-// border goes on through it. The same picture gives the same mask.
-[[nodiscard]] cv::Mat CutOut(const cv::Mat& bgr, const std::optional<PointedAt>& thing);
+// cheapest outline between them (Rother, Kolmogorov and Blake 2004, "GrabCut"). CV_8UC1, 0 or 255;
+// bgr: CV_8UC3. What reaches the picture's border goes on through it. The same picture gives the
+// same mask.
+[[nodiscard]] cv::Mat CutOut(const cv::Mat& bgr, const PointedAt& thing);
 
 }  // namespace bladecurve

@@ -136,7 +136,7 @@ LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
 LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
   const SceneView& view = looked->view;
   const bool full = plan == Plan::kFull;
-  const bool points = view.hints.pivot_px || view.hints.roi_px;
+  const bool points = view.hints.pivot_px.has_value();
   // What runs out of the picture is refused, unless the user points at something else.
   const auto suffices = [&](const LadderResult& seen) {
     return Consistent(seen) && (!points || ShowsWholeBlades(seen));
@@ -207,10 +207,10 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
     in_broad.climbed = true;
     return in_broad;
   }
-  if (!points) return result;
+  if (!points || view.smooth) return result;
   Rung cut;
   LadderResult in_cut = Consider(see("scene-cut",
-                                     WhyRun(full, "hints tell scissors from a patterned ground"),
+                                     WhyRun(full, "--pivot tells scissors from a patterned ground"),
                                      [&] { return std::vector{CutRung(view, *looked->colour)}; }),
                                  ShowsWholeBlades(result) ? all : &cut);
   in_cut.climbed = true;

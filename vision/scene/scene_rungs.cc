@@ -7,7 +7,6 @@
 #include <iterator>
 #include <memory>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <utility>
 
 #include "vision/image/disk.h"
@@ -131,20 +130,6 @@ void AddLevels(const cv::Mat& levels,
   rung->distance = levels;
 }
 
-// The thing at --pivot: what lies close about it is surely of its colours, what lies further about
-// it shows more of them. Without the hint, nobody points.
-std::vector<std::optional<PointedAt>> PointedAtBy(const StoredHints& hints, const ScaledImage& at) {
-  constexpr double kAbout[] = {0.025, 0.06};  // of the longest side
-  if (!hints.pivot_px) return {std::nullopt};
-  const Eigen::Vector2d place = at.SmallFromFull(*hints.pivot_px);
-  const int longest = std::max(at.pixels.cols, at.pixels.rows);
-  std::vector<std::optional<PointedAt>> things;
-  const cv::Point nearest(std::clamp(cvRound(place.x()), 0, at.pixels.cols - 1),
-                          std::clamp(cvRound(place.y()), 0, at.pixels.rows - 1));
-  for (const double about : kAbout) things.push_back(PointedAt{nearest, about * longest});
-  return things;
-}
-
 // As level(walls) gives them for each of the walls.
 template <typename Level>
 std::vector<cv::Mat> LevelsOf(const Outlines& outlines, const Level& level) {
@@ -222,20 +207,20 @@ Rung BroadRung(const SceneView& view, const ColourPictures& colour, const cv::Ma
 }
 
 Rung CutRung(const SceneView& view, const ColourPictures& colour) {
-  constexpr int kLinePx = 3;  // no wider ones are left of a pattern
+  constexpr double kAbout = 0.025;  // of the longest side; metal about --pivot
+  constexpr int kLinePx = 3;        // no wider ones are left of a pattern
   Candidate like{{}, colour.lab, {}, "cut"};
   like.patterned = true;
-  const std::vector<std::optional<PointedAt>> things = PointedAtBy(view.hints, *colour.lab);
-  const std::vector<cv::Mat> masks = ParallelMap(static_cast<int>(things.size()), [&](int i) {
-    cv::Mat mask = CutOut(colour.bgr, things[static_cast<std::size_t>(i)]);
-    if (!colour.ignore.empty()) mask.setTo(0, colour.ignore);
-    cv::morphologyEx(mask, mask, cv::MORPH_OPEN, Disk(kLinePx));
-    return mask;
-  });
-  Rung rung;
+  const Eigen::Vector2d place = colour.lab->SmallFromFull(*view.hints.pivot_px);
+  const cv::Size& size = colour.bgr.size();
+  const cv::Point nearest(std::clamp(cvRound(place.x()), 0, size.width - 1),
+                          std::clamp(cvRound(place.y()), 0, size.height - 1));
+  cv::Mat mask = CutOut(colour.bgr, {nearest, kAbout * std::max(size.width, size.height)});
+  if (!colour.ignore.empty()) mask.setTo(0, colour.ignore);
+  cv::morphologyEx(mask, mask, cv::MORPH_OPEN, Disk(kLinePx));
+  Rung rung = SeenIn(mask, like, colour.ignore, view.hints);
   rung.method = like.method;
-  for (const cv::Mat& mask : masks) Add(SeenIn(mask, like, colour.ignore, view.hints), &rung);
-  masks.front().convertTo(rung.distance, CV_32F);
+  mask.convertTo(rung.distance, CV_32F);
   return rung;
 }
 

@@ -44,8 +44,7 @@ struct GreyPicture {
                              const ColourPictures& colour,
                              const cv::Mat& distance);
 
-// By a graph cut: what has the colours of what lies about --pivot, or, without one, not those of
-// the border of --roi.
+// By a graph cut, what has the colours of what lies about --pivot, which is given.
 [[nodiscard]] Rung CutRung(const SceneView& view, const ColourPictures& colour);
 
 // The sharp outlines of a picture, which two rungs go by.
