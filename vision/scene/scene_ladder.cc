@@ -207,20 +207,27 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
     in_broad.climbed = true;
     return in_broad;
   }
-  if (!points || view.smooth) return result;
-  Rung cut;
-  LadderResult in_cut = Consider(see("scene-cut",
-                                     WhyRun(full, "--pivot tells scissors from a patterned ground"),
-                                     [&] { return std::vector{CutRung(view, *looked->colour)}; }),
-                                 ShowsWholeBlades(result) ? all : &cut);
-  in_cut.climbed = true;
-  if (ShowsWholeBlades(result)) return in_cut;
-  if (!ShowsWholeBlades(in_cut)) {
-    result.climbed = true;
-    return result;
+  return points && !view.smooth ? ClimbToCut(plan, std::move(result), looked, all) : result;
+}
+
+LadderResult SceneLadder::ClimbToCut(Plan plan, LadderResult result, Looked* looked, Rung* all) {
+  const std::vector<Rung>& in_cut =
+      See("scene-cut",
+          WhyRun(plan == Plan::kFull, "--pivot tells scissors from a patterned ground"),
+          looked,
+          [&] { return std::vector{CutRung(looked->view, *looked->colour)}; });
+  if (ShowsWholeBlades(result)) {
+    result = Consider(in_cut, all);
+  } else {
+    Rung cut;  // by itself: what others make of the pattern is none
+    LadderResult by_cut = Consider(in_cut, &cut);
+    if (ShowsWholeBlades(by_cut)) {
+      *all = std::move(cut);
+      result = std::move(by_cut);
+    }
   }
-  *all = std::move(cut);
-  return in_cut;
+  result.climbed = true;
+  return result;
 }
 
 }  // namespace bladecurve

@@ -47,6 +47,8 @@ class SceneLadder {
   [[nodiscard]] LadderResult ClimbNoting(Plan plan, Looked* looked);
   // Fills in what all rungs saw.
   [[nodiscard]] LadderResult ClimbIn(Plan plan, Looked* looked, Rung* all);
+  // From what all other rungs gave to what the user points at.
+  [[nodiscard]] LadderResult ClimbToCut(Plan plan, LadderResult result, Looked* looked, Rung* all);
 
   StageLog* log_;
   Looked as_is_, smooth_;
