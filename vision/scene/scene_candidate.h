@@ -22,8 +22,8 @@ struct Candidate {
   BladePair pair;
   std::shared_ptr<const ScaledImage> at;
   cv::Mat mask;
-  std::string
-      method;  // "grey", "caster", "colour", "shadow-blind", "flood", "regions", "broad", "cut"
+  // "grey", "caster", "colour", "shadow-blind", "flood", "regions", "broad", "cut"
+  std::string method;
   double threshold = 0;
   bool outlined = false;   // the mask ends at sharp borders, of which a soft shadow has none
   bool patterned = false;  // the ground is taken to be, so that anything may lie between the blades

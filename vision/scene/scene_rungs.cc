@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "vision/image/disk.h"
+#include "vision/image/nearest_pixel.h"
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 #include "vision/scene/flood.h"
@@ -211,16 +212,15 @@ Rung CutRung(const SceneView& view, const ColourPictures& colour) {
   constexpr int kLinePx = 3;        // no wider ones are left of a pattern
   Candidate like{{}, colour.lab, {}, "cut"};
   like.patterned = true;
-  const Eigen::Vector2d place = colour.lab->SmallFromFull(*view.hints.pivot_px);
-  const cv::Size& size = colour.bgr.size();
-  const cv::Point nearest(std::clamp(cvRound(place.x()), 0, size.width - 1),
-                          std::clamp(cvRound(place.y()), 0, size.height - 1));
-  cv::Mat mask = CutOut(colour.bgr, {nearest, kAbout * std::max(size.width, size.height)});
+  const double longest = std::max(colour.bgr.cols, colour.bgr.rows);
+  const cv::Point place = NearestPixel(colour.lab->SmallFromFull(*view.hints.pivot_px));
+  cv::Mat mask = CutOut(colour.bgr, {place, kAbout * longest});
   if (!colour.ignore.empty()) mask.setTo(0, colour.ignore);
   cv::morphologyEx(mask, mask, cv::MORPH_OPEN, Disk(kLinePx));
-  Rung rung = SeenIn(mask, like, colour.ignore, view.hints);
+  Rung rung;
   rung.method = like.method;
   mask.convertTo(rung.distance, CV_32F);
+  Add(SeenIn(mask, like, colour.ignore, view.hints), &rung);
   return rung;
 }
 
