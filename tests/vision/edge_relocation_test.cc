@@ -255,6 +255,23 @@ TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeThatIsLittleAside) {
   }
 }
 
+// As where the edge of a dark bevel is lost beside a dark shadow of which the border stands out.
+TEST(RelocateUnlikeEdges, FindsTheDoubtfulEdgeBesideAHigherStep) {
+  constexpr double kAsidePx = 5, kClosePx = 0.3;
+  for (const bool doubtful : {false, true}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    measured.MakeClear(&measured.blades.lower);
+    measured.Misplace(&upper, kAsidePx, Measured::kStrong);
+    measured.MakeClear(&upper);
+    if (doubtful) upper.edge.ambiguity = 0.9;
+    if (doubtful) upper.edge.common_sigma_px = kAsidePx;
+    ASSERT_TRUE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    EXPECT_EQ(FarFrom(measured.truth.upper, upper.used) < kClosePx, doubtful);
+  }
+}
+
 // The edges still differ, more than the pivot accounts for and towards the doubtful one's rival: it
 // may lie between the two lines.
 TEST(RelocateUnlikeEdges, IsAsUnsureOfTheDoubtfulEdgeAsTheEdgesStillDiffer) {
@@ -547,6 +564,33 @@ TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
   const std::vector<Vector2d> before = PointsOf(measured.blades.upper);
   Relocate(&measured);
   EXPECT_EQ(PointsOf(measured.blades.upper), before);
+}
+
+// Unless they differ by little and one that has a rival is far better seen there: further in, where
+// lines on the blade lie, by a far higher step.
+TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
+  constexpr double kAsidePx = 3, kClosePx = 0.3, kWarned = 0.5;
+  constexpr double kHigher = 2, kFarHigher = 5;  // the step at the edge, of that at what was found
+  const auto relocated = [&](bool upper, double outwards_px, double higher, double ambiguity) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& misplaced = measured.Blade(upper);
+    const double contrast = TypicalContrast(misplaced.edge) / higher;
+    measured.Misplace(&misplaced, outwards_px, contrast);
+    misplaced.edge.ambiguity = ambiguity;
+    measured.scale.sheet.reset();
+    EXPECT_TRUE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    const bool is_found = FarFrom(measured.TrueEdge(upper), misplaced.used) < kClosePx;
+    EXPECT_EQ(is_found, !misplaced.moved.empty());
+    EXPECT_TRUE(!is_found || misplaced.edge.ambiguity > kWarned);
+    return is_found;
+  };
+  for (const bool upper : {true, false}) {
+    EXPECT_TRUE(relocated(upper, -kAsidePx, kHigher, 0.6)) << upper;
+    EXPECT_FALSE(relocated(upper, kAsidePx, kHigher, 0.6)) << upper;
+    EXPECT_TRUE(relocated(upper, kAsidePx, kFarHigher, 0.6)) << upper;
+    EXPECT_FALSE(relocated(upper, -kAsidePx, kHigher, 0.1)) << upper << ": it was as clear before";
+  }
 }
 
 // But no view makes edges unlike in shape.

@@ -17,6 +17,7 @@
 namespace bladecurve {
 namespace {
 
+constexpr double kRival = 0.25;  // ambiguity of edges that have one
 constexpr const char* kWhereMirrored = "where the other one puts it";
 
 // What is seen where the other one puts a blade, the other one not being seen where that puts it.
@@ -88,8 +89,7 @@ double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades)
 // just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror
 // the other one only if it lay nearer to its rival, the border may lie between the two lines.
 void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kLess = 0.75;   // of the ambiguity before
-  constexpr double kRival = 0.25;  // ambiguity of edges that have one
+  constexpr double kLess = 0.75;  // of the ambiguity before
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
   if (doubtful.edge.ambiguity < kRival) return;
@@ -160,6 +160,30 @@ bool RelocateLostOne(const BladeView& view, const Pivot& pivot, Blades* blades) 
   return true;
 }
 
+// Where a slanted view may part the edges as well: the one that has a rival and is far better seen
+// where the other puts it, if that is not seen where this one puts it. What is seen further in is
+// mostly a line on the blade: only a far higher step counts there.
+void RelocateFarClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kClear = 0.25, kLess = 0.5;    // ambiguity; of that before
+  constexpr double kOutside = 1, kFurtherIn = 3;  // times the step before
+  constexpr double kLeft = 0.3;                   // of the difference
+  if (pivot.screw && IsFaint(*pivot.screw)) return;
+  const MirrorLine line = LineBetween(view, pivot, *blades);
+  const auto upper = LookWhereMirrored({view, pivot, blades->lower, line});
+  const auto lower = LookWhereMirrored({view, pivot, blades->upper, line});
+  if (upper.has_value() == lower.has_value()) return;
+  const RelocatedBlade& found = upper ? *upper : *lower;
+  const auto [blade, other] = OneOf(blades, upper.has_value());
+  const LocatedEdge &before = blade.edge, &after = found.blade.edge;
+  if (before.ambiguity < kRival || IsDoubtful(other.edge)) return;
+  if (after.ambiguity > std::min(kClear, kLess * before.ambiguity)) return;
+  const double higher = LiesInwards(blade, pivot) ? kOutside : kFurtherIn;
+  if (std::abs(TypicalContrast(after)) <= higher * std::abs(TypicalContrast(before))) return;
+  if (LeftOfDifference({view, pivot, other, line}, found) > kLeft) return;
+  Replace(found, kWhereMirrored, &blade);
+  MarkAsAssumed(view, pivot, &blade);
+}
+
 // Edges that differ by more than a pivot that lies a little aside makes them.
 void DoubtIfBeyondPivot(const Pivot& pivot, Blades* blades) {
   if (DifferBeyondPivot(pivot, *blades))
@@ -191,6 +215,10 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   Replace(*found, kWhereMirrored, &inner);
 }
 
+bool NoneMoved(const Blades& blades) {
+  return blades.upper.moved.empty() && blades.lower.moved.empty();
+}
+
 void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
@@ -199,15 +227,15 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (!AreSuspect(pivot.asymmetry)) return DoubtUnlikeShapes(pivot, blades);
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (RelocateShadowedOne(view, pivot, blades)) return;
-    if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
-    return;
+    if (AreFarUnlike(pivot.asymmetry)) return RelocateInnerOne(view, pivot, blades);
+    return RelocateFarClearerOne(view, pivot, blades);
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot.asymmetry)) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
-    const bool none_moved = blades->upper.moved.empty() && blades->lower.moved.empty();
-    if (none_moved) DoubtIfBeyondPivot(pivot, blades);
+    if (NoneMoved(*blades)) RelocateDoubtfulOne(view, pivot, blades);
+    if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {
     RelocateDoubtfulOne(view, pivot, blades);
   }
@@ -232,7 +260,7 @@ void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades) {
 
 void DoubtMovedEdges(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kSigmas = 2;
-  if (blades->upper.moved.empty() && blades->lower.moved.empty()) return;
+  if (NoneMoved(*blades)) return;
   if (!KnowsMirror(view, pivot) || pivot.bent) return;
   const double asymmetry = AsymmetryOf(view, pivot, blades->upper, blades->lower);
   const double off_px = ShareInPx(std::abs(asymmetry), pivot, *blades);

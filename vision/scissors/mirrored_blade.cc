@@ -48,9 +48,10 @@ EdgeGuess GuessWithin(const MirroredBladeSearch& search, double search_px) {
   return guess;
 }
 
+constexpr double kOfWay = 0.35;
+
 // At least so far aside, and further where the way is long.
 double Widened(const MirroredBladeSearch& search, double search_px) {
-  constexpr double kOfWay = 0.35;
   return std::max(search_px, kOfWay * WayPx(search));
 }
 
@@ -102,12 +103,12 @@ std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
 }
 
 std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search) {
-  constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
+  constexpr double kNearest = 5;  // px
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
   const bool suspect = AreSuspect(search.pivot.asymmetry);
   std::optional<RelocatedBlade> found = LookNearMirrored(search, Widened(search, kNearest));
   if (suspect && found && LeftOfDifference(search, *found) > kSame)  // the line that is doubted
-    found = LookNearMirrored(search, kShortOf * WayPx(search));
+    found = LookNearMirrored(search, kOfWay * WayPx(search));
   if (!found || (suspect && LeftOfDifference(search, *found) >= kMuchLess)) return std::nullopt;
   return AreAlike(found->asymmetry) ? found : std::nullopt;
 }
