@@ -25,9 +25,10 @@ namespace bladecurve {
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful and
 //   has a rival, that one, if it is seen where the other puts it.
 // None is moved to beyond the part of its blade that faces the gap.
-// Where nobody knows the tilt only edges far unlike are looked for, inside a shadow or, if they are
-// not clear, on a faint border; whatever is moved is ambiguous then. Edges that pass by the pivot
-// as those of scissors do stay where they were if they would hardly pass by it elsewhere.
+// Where nobody knows the tilt edges far unlike are looked for inside a shadow or, if they are not
+// clear, on a faint border; of others one that has a rival is taken where the other puts it, if it
+// alone is seen there, and far better. Whatever is moved is ambiguous then. Edges that pass by the
+// pivot as those of scissors do stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
 
 // Once ends at which the edges part are cut off, those that mirrored each other with them may not
