@@ -384,6 +384,34 @@ TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   }
 }
 
+// Two clear edges that differ by far more than the pivot is off: what lies within the border of a
+// bright blade is its bevel, though that looks like the ground. A dark blade may cast a shadow
+// instead, and the view's tilt may part the edges.
+TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
+  constexpr double kBrighter = -0.3, kClosePx = 0.5;
+  const SceneSpec spec = SceneWithMarkers();
+  const auto borrowed = [&](double contrast, bool with_markers) {
+    Measured measured{spec};
+    LocatedBlade& upper = measured.blades.upper;
+    for (LocatedBlade* blade : {&upper, &measured.blades.lower}) {
+      measured.Misplace(blade, blade == &upper ? -testing::kBevelPx : 0, contrast);
+      Measured::MakeClear(blade);
+    }
+    measured.photo = Measured::PhotoOf(testing::BrightenedAlongUpperEdge(
+        spec, 0, testing::kBevelPx, [](double, double) { return 0; }));
+    if (!with_markers) measured.scale.sheet.reset();
+    const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+    BorrowInnerOne(measured.View(), line, measured.pivot, &measured.blades);
+    if (upper.moved.empty()) return false;
+    EXPECT_LT(FarFrom(measured.truth.upper, upper.used), kClosePx);
+    EXPECT_GT(upper.edge.common_sigma_px, testing::kBevelPx / 3);
+    return true;
+  };
+  EXPECT_TRUE(borrowed(kBrighter, true));
+  EXPECT_FALSE(borrowed(-kBrighter, true));
+  EXPECT_FALSE(borrowed(kBrighter, false));
+}
+
 // It is the curve that is told of the blade; the view's tilt may part the edges, too, which is
 // said.
 TEST(RelocateUnlikeEdges, FindsTheUpperEdgeFurtherOutWithoutMarkers) {

@@ -11,8 +11,10 @@ namespace bladecurve {
 // Of edges that do not mirror each other about `line`, neither being seen where the other puts it,
 // the inner one is replaced by the other's mirror image where that as a whole is seen, too faintly
 // to be located by itself: as good as the other edge, the pivot and the trace are, and marked as
-// doubtful. Not where the other edge is doubtful itself, nor where the pivot may account for the
-// difference, nor about a head that may be none: of that the edges say nothing.
+// doubtful. In a view of known tilt also where nothing is seen of it, if both blades are clearly
+// seen and brighter than the ground: half as far off as the edges differ, standard. Not where the
+// other edge is doubtful itself, nor where the pivot may account for the difference, nor about a
+// head that may be none: of that the edges say nothing.
 void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
