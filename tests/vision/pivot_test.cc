@@ -287,6 +287,27 @@ TEST(FindPivot, TakesAnArcForAHalfLitHeadRightWhereTheBladesTurn) {
     EXPECT_EQ(find(place(sigmas)).source, "geometry") << sigmas;
 }
 
+// Smaller than heads are for so wide a shank, off where the overlap seems to be.
+TEST(FindPivot, SeesASmallHeadThatNothingElseLooksLikeRightWhereTheBladesTurn) {
+  constexpr Arc kHead{6.5, 360, 215, cv::FILLED};
+  constexpr double kClosePx = 0.5, kShankPx = 64, kBladePx = 60, kAsidePx = 30;
+  const Measured measured{SceneWithMarkers()};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  ScaleResult unknown_view = measured.scale;
+  unknown_view.sheet.reset();
+  Scene scene = measured.scene;
+  scene.shank_width_px = kShankPx;
+  scene.left.width_px = scene.right.width_px = kBladePx;
+  const Vector2d along = measured.truth.axis_px, across(-along.y(), along.x());
+  for (Vector2d* crotch : {&scene.crotch_px, &scene.shank_crotch_px}) *crotch += kAsidePx * across;
+  const Vector2d head = PivotByBlades(unknown_view, scene, edges).point_px;
+  const cv::Mat grey = WithArcForHead(measured, head, kHead);
+  const Pivot pivot = FindPivot(grey, unknown_view, {scene, edges, std::nullopt, std::nullopt});
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - head).norm(), kClosePx);
+  EXPECT_LT(pivot.SigmaPx(), kClosePx);
+}
+
 TEST(FindPivot, DoubtsTheCentreMoreWhereAThirdOfTheRimIsUnlikeTheRest) {
   const Measured measured{SceneWithMarkers()};
   const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);

@@ -216,7 +216,7 @@ bool MayTurnAbout(const Screw& screw, const HeadSearch& known) {
 
 // Right where the blades turn an arc that is no head elsewhere is one, half lit: at 350
 // photographed joints grain and glints stay below 7 there, and every second head of which nothing
-// else was seen reaches 8. It may follow a part of the head.
+// else was seen reaches 8. It may follow a part of the head, unless nothing else looks like it.
 std::optional<Screw> LookWhereBladesTurn(const HeadSearch& known) {
   constexpr double kClearThere = 8;  // evidence
   constexpr double kSmaller = 0.6;   // so that others lie in the middle of an octave
@@ -227,7 +227,8 @@ std::optional<Screw> LookWhereBladesTurn(const HeadSearch& known) {
   searches.back().min_semi_axis_px *= kSmaller;
   for (ScrewSearch& search : searches) search.least_evidence = kClearThere;
   std::optional<Screw> head = ClearestIn(known, searches, MayTurnAbout);
-  if (!head || head->semi_major_px < speck_px) return std::nullopt;
+  if (!head || head->evidence > kUnmistakable) return head;
+  if (head->semi_major_px < speck_px) return std::nullopt;
   head->covariance_px2 += std::pow(kAside * head->semi_major_px, 2) * Eigen::Matrix2d::Identity();
   return head;
 }
