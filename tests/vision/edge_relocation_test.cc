@@ -374,6 +374,32 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
+// As the edge of a bevel that fades into a shadow towards the tip.
+TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStrays) {
+  constexpr double kClosePx = 0.3, kStrayPx = -10, kDoubt = 0.9, kFaint = 0.4;
+  const auto borrowed = [&](bool upper, double doubt, double doubt_of_other, double strays_from) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade &stray = measured.Blade(upper), &other = measured.Blade(!upper);
+    Measured::MakeClear(&other);
+    other.edge.ambiguity = doubt_of_other;
+    Bulge(&measured, &stray, strays_from, 1, kStrayPx);
+    stray.edge.ambiguity = doubt;
+    stray.edge.common_sigma_px = 0.1;
+    const bool moved = BorrowDoubtfulOne(measured.View(), measured.pivot, &measured.blades);
+    const auto rest = static_cast<std::ptrdiff_t>(stray.used.size() / 3);
+    const std::vector<LocatedEdgePoint> distal(stray.used.end() - rest, stray.used.end());
+    EXPECT_EQ(moved, FarFrom(measured.TrueEdge(upper), distal) < kClosePx);
+    EXPECT_EQ(moved, !stray.moved.empty());
+    return moved;
+  };
+  for (const bool upper : {true, false}) {
+    EXPECT_TRUE(borrowed(upper, kDoubt, 0, 0.6)) << upper;
+    EXPECT_FALSE(borrowed(upper, 0, 0, 0.6)) << upper << ": both are clear";
+    EXPECT_FALSE(borrowed(upper, kDoubt, kFaint, 0.6)) << upper << ": the other one may be wrong";
+    EXPECT_FALSE(borrowed(upper, kDoubt, 0, 0)) << upper << ": it strays along most of it";
+  }
+}
+
 TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   for (const bool doubtful : {false, true}) {
     Measured measured = WithMirroringBevelBelow();
@@ -597,7 +623,7 @@ TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
 // Unless they differ by little and one that has a rival is far better seen there: further in, where
 // lines on the blade lie, by a far higher step.
 TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
-  constexpr double kAsidePx = 3, kClosePx = 0.3, kWarned = 0.5;
+  constexpr double kAsidePx = 3, kFarPx = 16, kClosePx = 0.3, kWarned = 0.5;
   constexpr double kHigher = 2, kFarHigher = 5;  // the step at the edge, of that at what was found
   const auto relocated = [&](bool upper, double outwards_px, double higher, double ambiguity) {
     Measured measured{SceneWithMarkers()};
@@ -617,6 +643,8 @@ TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
     EXPECT_TRUE(relocated(upper, -kAsidePx, kHigher, 0.6)) << upper;
     EXPECT_FALSE(relocated(upper, kAsidePx, kHigher, 0.6)) << upper;
     EXPECT_TRUE(relocated(upper, kAsidePx, kFarHigher, 0.6)) << upper;
+    EXPECT_TRUE(relocated(upper, -kFarPx, kHigher, 0.6)) << upper;
+    EXPECT_FALSE(relocated(upper, kFarPx, kFarHigher, 0.6)) << upper;
     EXPECT_FALSE(relocated(upper, -kAsidePx, kHigher, 0.1)) << upper << ": it was as clear before";
   }
 }

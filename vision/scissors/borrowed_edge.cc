@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/borrowed_edge.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
@@ -35,7 +40,84 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
+// Of points turned from the other edge's mirror image, those that agree with most others.
+std::vector<MirrorTurn> Agreeing(const std::vector<MirrorTurn>& turns, double within_mm) {
+  std::vector<MirrorTurn> most;
+  for (const MirrorTurn& about : turns) {
+    std::vector<MirrorTurn> agreeing;
+    std::copy_if(
+        turns.begin(), turns.end(), std::back_inserter(agreeing), [&](const MirrorTurn& turn) {
+          return std::abs(turn.rad - about.rad) * turn.radius_mm < within_mm;
+        });
+    if (agreeing.size() > most.size()) most = std::move(agreeing);
+  }
+  return most;
+}
+
+// How far aside of a mirror image an edge lies: aside_mm + rad * radius_mm.
+struct Displacement {
+  double aside_mm = 0, rad = 0;
+
+  explicit Displacement(const std::vector<MirrorTurn>& turns) {
+    Eigen::MatrixX2d basis(turns.size(), 2);
+    Eigen::VectorXd aside(turns.size());
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      basis.row(row) << 1, turns[i].radius_mm;
+      aside[row] = turns[i].rad * turns[i].radius_mm;
+    }
+    const Eigen::Vector2d fitted = basis.colPivHouseholderQr().solve(aside);
+    aside_mm = fitted[0];
+    rad = fitted[1];
+  }
+};
+
+// The line about which the longest part of an edge is the other's mirror image, if so much of it is
+// and the rest is clearly not.
+std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
+                                     const LocatedBlade& blade,
+                                     const LocatedBlade& other) {
+  constexpr double kAlike = 0.002, kUnlike = 0.005;  // of the length
+  constexpr double kMost = 0.4, kRest = 0.15;        // of the points
+  const std::vector<MirrorTurn> turns = TurnsFromMirrored(line, blade, other);
+  if (turns.empty()) return std::nullopt;
+  const double length_mm = turns.back().radius_mm;
+  const auto share = [&](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(turns.size());
+  };
+  const std::vector<MirrorTurn> agreeing = Agreeing(turns, kAlike * length_mm);
+  if (share(agreeing.size()) < kMost) return std::nullopt;
+  const Displacement by(agreeing);
+  if (AreUnlike(by.aside_mm / length_mm)) return std::nullopt;
+  const auto astray = std::count_if(turns.begin(), turns.end(), [&](const MirrorTurn& turn) {
+    return std::abs((turn.rad - by.rad) * turn.radius_mm - by.aside_mm) > kUnlike * length_mm;
+  });
+  if (share(static_cast<std::size_t>(astray)) < kRest) return std::nullopt;
+  return MirrorLine{line.map,
+                    line.pivot + 0.5 * by.aside_mm * line.Across(),
+                    Eigen::Rotation2Dd(0.5 * by.rad) * line.direction};
+}
+
 }  // namespace
+
+bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kGroundAlike = 0.002;  // of the length
+  constexpr double kSure = 0.2;           // ambiguity
+  if (pivot.screw && IsFaint(*pivot.screw)) return false;
+  const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
+  if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge) || other.edge.ambiguity > kSure)
+    return false;
+  const auto line = LineOfMost(LineBetween(view, pivot, *blades), doubtful, other);
+  if (!line) return false;
+  const double sigma_px = ShareInPx(kGroundAlike, pivot, *blades);
+  const LocatedEdge edge = Borrowed(other, {*line, sigma_px}, pivot);
+  const auto found = UnlessRefused([&] {
+    return BladeWithEdge({view, pivot, other, *line}, edge);
+  });
+  if (!found) return false;
+  Replace(*found, "the other one mirrored, on which most of it lies", &doubtful);
+  return true;
+}
 
 void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,

@@ -20,4 +20,9 @@ void BorrowInnerOne(const BladeView& view,
                     const Pivot& pivot,
                     Blades* blades);
 
+// Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
+// mirror image of the other, if that is clear, turned about the pivot to where most of the doubtful
+// one lies on it: the rest has strayed. In a view of known tilt.
+bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades);
+
 }  // namespace bladecurve

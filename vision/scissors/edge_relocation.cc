@@ -95,7 +95,10 @@ void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blad
   if (doubtful.edge.ambiguity < kRival) return;
   std::optional<RelocatedBlade> found =
       LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
-  if (!found) return;
+  if (!found) {
+    BorrowDoubtfulOne(view, pivot, blades);
+    return;
+  }
   const LocatedEdge& before = doubtful.edge;
   LocatedEdge& after = found->blade.edge;
   if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
@@ -136,7 +139,8 @@ bool SettleShapes(const BladeView& view, const Pivot& pivot, Blades* blades) {
     Replace(upper ? *upper : *lower, kWhereMirrored, upper ? &blades->upper : &blades->lower);
     return true;
   }
-  DoubtVaguerOne(ShareInPx(difference, pivot, *blades), blades);
+  if (!BorrowDoubtfulOne(view, pivot, blades))
+    DoubtVaguerOne(ShareInPx(difference, pivot, *blades), blades);
   return true;
 }
 
@@ -162,7 +166,7 @@ bool RelocateLostOne(const BladeView& view, const Pivot& pivot, Blades* blades) 
 
 // Where a slanted view may part the edges as well: the one that has a rival and is far better seen
 // where the other puts it, if that is not seen where this one puts it. What is seen further in is
-// mostly a line on the blade: only a far higher step counts there.
+// mostly a line on the blade: only a far higher step counts there, and none far in.
 void RelocateFarClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kClear = 0.25, kLess = 0.5;    // ambiguity; of that before
   constexpr double kOutside = 1, kFurtherIn = 3;  // times the step before
@@ -177,7 +181,9 @@ void RelocateFarClearerOne(const BladeView& view, const Pivot& pivot, Blades* bl
   const LocatedEdge &before = blade.edge, &after = found.blade.edge;
   if (before.ambiguity < kRival || IsDoubtful(other.edge)) return;
   if (after.ambiguity > std::min(kClear, kLess * before.ambiguity)) return;
-  const double higher = LiesInwards(blade, pivot) ? kOutside : kFurtherIn;
+  const bool outside = LiesInwards(blade, pivot);
+  if (AreFarUnlike(pivot.asymmetry) && !outside) return;
+  const double higher = outside ? kOutside : kFurtherIn;
   if (std::abs(TypicalContrast(after)) <= higher * std::abs(TypicalContrast(before))) return;
   if (LeftOfDifference({view, pivot, other, line}, found) > kLeft) return;
   Replace(found, kWhereMirrored, &blade);
@@ -227,8 +233,9 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (!AreSuspect(pivot.asymmetry)) return DoubtUnlikeShapes(pivot, blades);
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (RelocateShadowedOne(view, pivot, blades)) return;
-    if (AreFarUnlike(pivot.asymmetry)) return RelocateInnerOne(view, pivot, blades);
-    return RelocateFarClearerOne(view, pivot, blades);
+    if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) RelocateFarClearerOne(view, pivot, blades);
+    return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
   if (AreSuspect(pivot.asymmetry)) {

@@ -23,12 +23,14 @@ namespace bladecurve {
 //   image, if they differ by more than the pivot may be off and that lies on a faint border along
 //   its whole; if it does not either, the vaguer one is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful and
-//   has a rival, that one, if it is seen where the other puts it.
+//   has a rival, that one, if it is seen where the other puts it; if a doubtful one is not, the
+//   other's mirror image, if that is clear and most of the doubtful one lies on it.
 // None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt edges far unlike are looked for inside a shadow or, if they are not
-// clear, on a faint border; of others one that has a rival is taken where the other puts it, if it
-// alone is seen there, and far better. Whatever is moved is ambiguous then. Edges that pass by the
-// pivot as those of scissors do stay where they were if they would hardly pass by it elsewhere.
+// clear, on a faint border; one that has a rival is taken where the other puts it, if it alone is
+// seen there, and far better, and not far in. Whatever is moved is ambiguous then. Edges that pass
+// by the pivot as those of scissors do stay where they were if they would hardly pass by it
+// elsewhere.
 void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
 
 // Once ends at which the edges part are cut off, those that mirrored each other with them may not

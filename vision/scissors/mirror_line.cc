@@ -3,6 +3,7 @@
 #include "vision/scissors/mirror_line.h"
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "vision/image/cross.h"
@@ -62,27 +63,38 @@ MirrorLine LineBetweenEnds(const BladeView& view, const Pivot& pivot, const Blad
   return {map, origin, (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 
+std::vector<MirrorTurn> TurnsFromMirrored(const MirrorLine& line,
+                                          const LocatedBlade& blade,
+                                          const LocatedBlade& other) {
+  const auto from_pivot = [&](const Vector2d& image_px) -> Vector2d {
+    return line.map.PlaneFromImage(image_px) - line.pivot;
+  };
+  std::vector<Vector2d> mirrored;  // ever further
+  for (const LocatedEdgePoint& p : other.used)
+    mirrored.push_back(from_pivot(line.Reflected(p.trend_px)));
+  std::vector<MirrorTurn> turns;
+  std::size_t next = 0;
+  for (const LocatedEdgePoint& p : blade.used) {
+    const Vector2d ray = from_pivot(p.trend_px);
+    const double radius = ray.norm();
+    while (next < mirrored.size() && mirrored[next].norm() < radius) ++next;
+    if (next == 0 || next == mirrored.size()) continue;
+    turns.push_back({radius, Cross(mirrored[next], ray) / (radius * radius)});
+  }
+  return turns;
+}
+
 double ShapeDifference(const BladeView& view, const Pivot& pivot, const Blades& blades) {
   constexpr double kMostOfIt = 0.8;
-  const MirrorLine line = LineBetween(view, pivot, blades);
-  std::vector<Vector2d> mirrored;  // from the pivot, ever further
-  for (const LocatedEdgePoint& p : blades.lower.used)
-    mirrored.push_back(line.Reflected(p.trend_px) - pivot.point_px);
-  std::vector<double> radius, aside, turn;
-  std::size_t next = 0;
-  for (const LocatedEdgePoint& p : blades.upper.used) {
-    const Vector2d ray = p.trend_px - pivot.point_px;
-    while (next < mirrored.size() && mirrored[next].norm() < ray.norm()) ++next;
-    if (next == 0 || next == mirrored.size()) continue;
-    radius.push_back(ray.norm());
-    aside.push_back(Cross(ray, mirrored[next]) / ray.norm());
-    turn.push_back(aside.back() / radius.back());
-  }
-  if (radius.empty()) return 0;
-  const double best_turn = Median(turn);
-  for (std::size_t i = 0; i < aside.size(); ++i)
-    aside[i] = std::abs(aside[i] - best_turn * radius[i]);
-  return SampleQuantile(aside, kMostOfIt) / radius.back();
+  const std::vector<MirrorTurn> turns =
+      TurnsFromMirrored(LineBetween(view, pivot, blades), blades.upper, blades.lower);
+  if (turns.empty()) return 0;
+  std::vector<double> angles, asides;
+  for (const MirrorTurn& turn : turns) angles.push_back(turn.rad);
+  const double best_rad = Median(std::move(angles));
+  for (const MirrorTurn& turn : turns)
+    asides.push_back(std::abs(turn.rad - best_rad) * turn.radius_mm);
+  return SampleQuantile(asides, kMostOfIt) / turns.back().radius_mm;
 }
 
 }  // namespace bladecurve
