@@ -375,14 +375,17 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
 }
 
 // As the edge of a bevel that fades into a shadow towards the tip.
-TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStrays) {
-  constexpr double kClosePx = 0.3, kStrayPx = -10, kDoubt = 0.9, kFaint = 0.4;
-  const auto borrowed = [&](bool upper, double doubt, double doubt_of_other, double strays_from) {
+TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStraysIntoTheBlade) {
+  constexpr double kClosePx = 0.3, kDoubt = 0.9, kFaint = 0.4;
+  struct Stray {
+    double from = 0.6, outwards_px = -10;
+  };
+  const auto borrowed = [&](bool upper, double doubt, double doubt_of_other, const Stray& strays) {
     Measured measured{SceneWithMarkers()};
     LocatedBlade &stray = measured.Blade(upper), &other = measured.Blade(!upper);
     Measured::MakeClear(&other);
     other.edge.ambiguity = doubt_of_other;
-    Bulge(&measured, &stray, strays_from, 1, kStrayPx);
+    Bulge(&measured, &stray, strays.from, 1, strays.outwards_px);
     stray.edge.ambiguity = doubt;
     stray.edge.common_sigma_px = 0.1;
     const bool moved = BorrowDoubtfulOne(measured.View(), measured.pivot, &measured.blades);
@@ -393,10 +396,11 @@ TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStrays) {
     return moved;
   };
   for (const bool upper : {true, false}) {
-    EXPECT_TRUE(borrowed(upper, kDoubt, 0, 0.6)) << upper;
-    EXPECT_FALSE(borrowed(upper, 0, 0, 0.6)) << upper << ": both are clear";
-    EXPECT_FALSE(borrowed(upper, kDoubt, kFaint, 0.6)) << upper << ": the other one may be wrong";
-    EXPECT_FALSE(borrowed(upper, kDoubt, 0, 0)) << upper << ": it strays along most of it";
+    EXPECT_TRUE(borrowed(upper, kDoubt, 0, {})) << upper;
+    EXPECT_FALSE(borrowed(upper, 0, 0, {})) << upper << ": both are clear";
+    EXPECT_FALSE(borrowed(upper, kDoubt, kFaint, {})) << upper << ": the other one may be wrong";
+    EXPECT_FALSE(borrowed(upper, kDoubt, 0, {0, -10})) << upper << ": it strays along most of it";
+    EXPECT_FALSE(borrowed(upper, kDoubt, 0, {0.6, 10})) << upper << ": the rest may have strayed";
   }
 }
 

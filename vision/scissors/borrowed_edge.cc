@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "vision/image/cross.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
@@ -19,6 +20,8 @@
 
 namespace bladecurve {
 namespace {
+
+using Eigen::Vector2d;
 
 // The other blade's edge, mirrored.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
@@ -66,14 +69,14 @@ struct Displacement {
       basis.row(row) << 1, turns[i].radius_mm;
       aside[row] = turns[i].rad * turns[i].radius_mm;
     }
-    const Eigen::Vector2d fitted = basis.colPivHouseholderQr().solve(aside);
+    const Vector2d fitted = basis.colPivHouseholderQr().solve(aside);
     aside_mm = fitted[0];
     rad = fitted[1];
   }
 };
 
 // The line about which the longest part of an edge is the other's mirror image, if so much of it is
-// and the rest is clearly not.
+// and of the rest enough clearly lies within the blade: outside of its edge nothing is its line.
 std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
                                      const LocatedBlade& blade,
                                      const LocatedBlade& other) {
@@ -89,8 +92,11 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
   if (share(agreeing.size()) < kMost) return std::nullopt;
   const Displacement by(agreeing);
   if (AreUnlike(by.aside_mm / length_mm)) return std::nullopt;
+  const Vector2d end = line.map.PlaneFromImage(blade.used.back().trend_px) - line.pivot;
+  const double inwards = std::copysign(1.0, Cross(line.direction, end));
   const auto astray = std::count_if(turns.begin(), turns.end(), [&](const MirrorTurn& turn) {
-    return std::abs((turn.rad - by.rad) * turn.radius_mm - by.aside_mm) > kUnlike * length_mm;
+    const double aside_mm = (turn.rad - by.rad) * turn.radius_mm - by.aside_mm;
+    return inwards * aside_mm > kUnlike * length_mm;
   });
   if (share(static_cast<std::size_t>(astray)) < kRest) return std::nullopt;
   return MirrorLine{line.map,

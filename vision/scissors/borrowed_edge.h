@@ -21,8 +21,9 @@ void BorrowInnerOne(const BladeView& view,
                     Blades* blades);
 
 // Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
-// mirror image of the other, if that is clear, turned about the pivot to where most of the doubtful
-// one lies on it: the rest has strayed. In a view of known tilt.
+// mirror image of the other, if that is clear, displaced to where most of the doubtful one lies on
+// it, if some of the rest lies within the blade then: it has strayed. In a view of known tilt.
+// Whether it was.
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve
