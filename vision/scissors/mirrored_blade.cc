@@ -103,14 +103,23 @@ std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
 }
 
 std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search) {
-  constexpr double kNearest = 5;  // px
+  constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one
   const bool suspect = AreSuspect(search.pivot.asymmetry);
+  const auto if_alike = [&](std::optional<RelocatedBlade> found) {
+    const bool alike = found && AreAlike(found->asymmetry) &&
+                       !(suspect && LeftOfDifference(search, *found) >= kMuchLess);
+    return alike ? std::move(found) : std::nullopt;
+  };
   std::optional<RelocatedBlade> found = LookNearMirrored(search, Widened(search, kNearest));
-  if (suspect && found && LeftOfDifference(search, *found) > kSame)  // the line that is doubted
-    found = LookNearMirrored(search, kOfWay * WayPx(search));
-  if (!found || (suspect && LeftOfDifference(search, *found) >= kMuchLess)) return std::nullopt;
-  return AreAlike(found->asymmetry) ? found : std::nullopt;
+  if (!suspect || !found || LeftOfDifference(search, *found) <= kSame)
+    return if_alike(std::move(found));
+  // That is the line that is doubted.
+  found = if_alike(LookNearMirrored(search, kShortOf * WayPx(search)));
+  if (!found) return std::nullopt;
+  std::optional<RelocatedBlade> nearer = if_alike(LookNearMirrored(search, kOfWay * WayPx(search)));
+  const bool clearer = nearer && nearer->blade.edge.ambiguity < found->blade.edge.ambiguity;
+  return clearer ? std::move(nearer) : std::move(found);
 }
 
 void Replace(const RelocatedBlade& found, const char* where, LocatedBlade* blade) {
