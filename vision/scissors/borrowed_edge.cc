@@ -45,16 +45,21 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
 
 // Of points turned from the other edge's mirror image, those that agree with most others.
 std::vector<MirrorTurn> Agreeing(const std::vector<MirrorTurn>& turns, double within_mm) {
-  std::vector<MirrorTurn> most;
-  for (const MirrorTurn& about : turns) {
-    std::vector<MirrorTurn> agreeing;
-    std::copy_if(
-        turns.begin(), turns.end(), std::back_inserter(agreeing), [&](const MirrorTurn& turn) {
-          return std::abs(turn.rad - about.rad) * turn.radius_mm < within_mm;
-        });
-    if (agreeing.size() > most.size()) most = std::move(agreeing);
-  }
-  return most;
+  const auto agree = [&](const MirrorTurn& about) {
+    return [rad = about.rad, within_mm](const MirrorTurn& turn) {
+      return std::abs(turn.rad - rad) * turn.radius_mm < within_mm;
+    };
+  };
+  std::vector<std::ptrdiff_t> counts;
+  for (const MirrorTurn& about : turns)
+    counts.push_back(std::count_if(turns.begin(), turns.end(), agree(about)));
+  const auto most = std::max_element(counts.begin(), counts.end()) - counts.begin();
+  std::vector<MirrorTurn> agreeing;
+  std::copy_if(turns.begin(),
+               turns.end(),
+               std::back_inserter(agreeing),
+               agree(turns[static_cast<std::size_t>(most)]));
+  return agreeing;
 }
 
 // How far aside of a mirror image an edge lies: aside_mm + rad * radius_mm.
@@ -80,15 +85,15 @@ struct Displacement {
 std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
                                      const LocatedBlade& blade,
                                      const LocatedBlade& other) {
-  constexpr double kAlike = 0.002, kUnlike = 0.005;  // of the length
-  constexpr double kMost = 0.4, kRest = 0.15;        // of the points
+  constexpr double kUnlike = 0.005;            // of the length
+  constexpr double kMost = 0.4, kRest = 0.15;  // of the points
   const std::vector<MirrorTurn> turns = TurnsFromMirrored(line, blade, other);
   if (turns.empty()) return std::nullopt;
   const double length_mm = turns.back().radius_mm;
   const auto share = [&](std::size_t count) {
     return static_cast<double>(count) / static_cast<double>(turns.size());
   };
-  const std::vector<MirrorTurn> agreeing = Agreeing(turns, kAlike * length_mm);
+  const std::vector<MirrorTurn> agreeing = Agreeing(turns, kGroundAlike * length_mm);
   if (share(agreeing.size()) < kMost) return std::nullopt;
   const Displacement by(agreeing);
   if (AreUnlike(by.aside_mm / length_mm)) return std::nullopt;
@@ -107,8 +112,7 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
 }  // namespace
 
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kGroundAlike = 0.002;  // of the length
-  constexpr double kSure = 0.2;           // ambiguity
+  constexpr double kSure = 0.2;  // ambiguity
   if (pivot.screw && IsFaint(*pivot.screw)) return false;
   const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge) || other.edge.ambiguity > kSure)
@@ -129,7 +133,7 @@ void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades) {
-  constexpr double kHalf = 0.5;
+  constexpr double kShare = 0.5;  // of the difference, standard
   if (pivot.screw && IsFaint(*pivot.screw)) return;
   if (!DifferBeyondPivot(pivot, *blades)) return;
   const auto [inner, other] = InnerOne(pivot, blades);
@@ -137,7 +141,7 @@ void BorrowInnerOne(const BladeView& view,
   const MirroredBladeSearch search{view, pivot, other, line};
   auto trace = FindMirroredTrace(view, inner, other, line, WayPx(search));
   if (!trace && KnowsMirror(view, pivot) && MayBeLineOfBevel(inner, other, pivot))
-    trace.emplace(MirroredTrace{line, kHalf * WayPx(search)});
+    trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });

@@ -9,6 +9,7 @@
 
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_doubt.h"
+#include "vision/scissors/mirror_line.h"
 
 namespace bladecurve {
 namespace {
@@ -29,7 +30,6 @@ std::vector<double> WaysOf(const LocatedBlade& blade) {
 
 void ConfirmMirroredEdges(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kAlike = 1.5, kUnlike = 4;  // standard uncertainties
-  constexpr double kGroundAlike = 0.002;       // of the length
   if (!KnowsMirror(view, pivot) || pivot.bent) return;
   if (!blades->upper.moved.empty() || !blades->lower.moved.empty()) return;
   const double length_px = BladeLengthPx(pivot, *blades);

@@ -16,6 +16,9 @@ namespace bladecurve {
 // The edges of two blades, of which one is the left one.
 [[nodiscard]] EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b);
 
+// How far the blades of a pair are ground alike, of their length.
+inline constexpr double kGroundAlike = 0.002;
+
 // The line about which the blades turn into each other, in the plane of the edges.
 struct MirrorLine {
   const PlaneMap& map;
