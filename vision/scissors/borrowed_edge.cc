@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/borrowed_edge.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include "vision/image/cross.h"
 #include "vision/pivot/pivot_geometry.h"
@@ -43,42 +40,19 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
-// Of points turned from the other edge's mirror image, those that agree with most others.
-std::vector<MirrorTurn> Agreeing(const std::vector<MirrorTurn>& turns, double within_mm) {
-  const auto agree = [&](const MirrorTurn& about) {
-    return [rad = about.rad, within_mm](const MirrorTurn& turn) {
-      return std::abs(turn.rad - rad) * turn.radius_mm < within_mm;
-    };
-  };
-  std::vector<std::ptrdiff_t> counts;
-  for (const MirrorTurn& about : turns)
-    counts.push_back(std::count_if(turns.begin(), turns.end(), agree(about)));
-  const auto most = std::max_element(counts.begin(), counts.end()) - counts.begin();
-  std::vector<MirrorTurn> agreeing;
-  std::copy_if(turns.begin(),
-               turns.end(),
-               std::back_inserter(agreeing),
-               agree(turns[static_cast<std::size_t>(most)]));
-  return agreeing;
-}
-
-// How far aside of a mirror image an edge lies: aside_mm + rad * radius_mm.
-struct Displacement {
-  double aside_mm = 0, rad = 0;
-
-  explicit Displacement(const std::vector<MirrorTurn>& turns) {
-    Eigen::MatrixX2d basis(turns.size(), 2);
-    Eigen::VectorXd aside(turns.size());
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      basis.row(row) << 1, turns[i].radius_mm;
-      aside[row] = turns[i].rad * turns[i].radius_mm;
-    }
-    const Vector2d fitted = basis.colPivHouseholderQr().solve(aside);
-    aside_mm = fitted[0];
-    rad = fitted[1];
+// A turn about the pivot, rad, that as many places of a gap agree with as with any other.
+double CommonestTurn(const EdgeGap& gap, double within_mm) {
+  std::size_t most = 0;
+  double commonest = 0;
+  for (std::size_t k = 0; k < gap.along.size(); ++k) {
+    const double turn = gap.apart[k] / gap.along[k];
+    std::size_t agree = 0;
+    for (std::size_t i = 0; i < gap.along.size(); ++i)
+      if (std::abs(gap.apart[i] - turn * gap.along[i]) < within_mm) ++agree;
+    if (agree > most) most = agree, commonest = turn;
   }
-};
+  return commonest;
+}
 
 // The line about which the longest part of an edge is the other's mirror image, if so much of it is
 // and of the rest enough clearly lies within the blade: outside of its edge nothing is its line.
@@ -86,27 +60,31 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
                                      const LocatedBlade& blade,
                                      const LocatedBlade& other) {
   constexpr double kUnlike = 0.005;            // of the length
-  constexpr double kMost = 0.4, kRest = 0.15;  // of the points
-  const std::vector<MirrorTurn> turns = TurnsFromMirrored(line, blade, other);
-  if (turns.empty()) return std::nullopt;
-  const double length_mm = turns.back().radius_mm;
-  const auto share = [&](std::size_t count) {
-    return static_cast<double>(count) / static_cast<double>(turns.size());
+  constexpr double kMost = 0.4, kRest = 0.15;  // of the places
+  const EdgeGap gap = GapFromMirrored(line, blade, other);
+  if (gap.along.empty()) return std::nullopt;
+  const double length_mm = gap.along.back(), within_mm = kGroundAlike * length_mm;
+  const double turn = CommonestTurn(gap, within_mm);
+  const auto agrees = [&](std::size_t i) {
+    return std::abs(gap.apart[i] - turn * gap.along[i]) < within_mm;
   };
-  const std::vector<MirrorTurn> agreeing = Agreeing(turns, kGroundAlike * length_mm);
-  if (share(agreeing.size()) < kMost) return std::nullopt;
-  const Displacement by(agreeing);
-  if (AreUnlike(by.aside_mm / length_mm)) return std::nullopt;
+  GapCourse course;
+  course.Fit(gap, 2, agrees);
+  const double aside_mm = course.powers[0], rad = course.powers[1];
   const Vector2d end = line.map.PlaneFromImage(blade.used.back().trend_px) - line.pivot;
   const double inwards = std::copysign(1.0, Cross(line.direction, end));
-  const auto astray = std::count_if(turns.begin(), turns.end(), [&](const MirrorTurn& turn) {
-    const double aside_mm = (turn.rad - by.rad) * turn.radius_mm - by.aside_mm;
-    return inwards * aside_mm > kUnlike * length_mm;
-  });
-  if (share(static_cast<std::size_t>(astray)) < kRest) return std::nullopt;
+  std::size_t agreeing = 0, astray = 0;
+  for (std::size_t i = 0; i < gap.along.size(); ++i) {
+    if (agrees(i)) ++agreeing;
+    if (inwards * (gap.apart[i] - course.At(gap.along[i])) > kUnlike * length_mm) ++astray;
+  }
+  const auto places = static_cast<double>(gap.along.size());
+  if (static_cast<double>(agreeing) < kMost * places ||
+      static_cast<double>(astray) < kRest * places || AreUnlike(aside_mm / length_mm))
+    return std::nullopt;
   return MirrorLine{line.map,
-                    line.pivot + 0.5 * by.aside_mm * line.Across(),
-                    Eigen::Rotation2Dd(0.5 * by.rad) * line.direction};
+                    line.pivot + 0.5 * aside_mm * line.Across(),
+                    Eigen::Rotation2Dd(0.5 * rad) * line.direction};
 }
 
 }  // namespace

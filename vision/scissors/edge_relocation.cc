@@ -51,8 +51,47 @@ bool IsBetter(const std::optional<RelocatedBlade>& found,
          std::abs(TypicalContrast(edge)) > std::abs(TypicalContrast(blade.edge));
 }
 
+bool NoneMoved(const Blades& blades) {
+  return blades.upper.moved.empty() && blades.lower.moved.empty();
+}
+
+// By how much edges of that asymmetry differ beyond what the pivot accounts for. px
+double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades) {
+  const double off_px = ShareInPx(asymmetry, pivot, blades);
+  const double by_pivot_px = PartedByPivotPx(pivot, blades);
+  return std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px));
+}
+
+// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
+// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror
+// the other one only if it lay nearer to its rival, the border may lie between the two lines.
+// `look(upper)`: where the other one puts that one.
+template <typename Look>
+void RelocateDoubtfulOne(const BladeView& view,
+                         const Pivot& pivot,
+                         const Look& look,
+                         Blades* blades) {
+  constexpr double kLess = 0.75;  // of the ambiguity before
+  const bool upper = IsDoubtful(blades->upper.edge);
+  const auto [doubtful, other] = OneOf(blades, upper);
+  if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
+  if (doubtful.edge.ambiguity < kRival) return;
+  std::optional<RelocatedBlade> found = look(upper);
+  if (!found) {
+    BorrowDoubtfulOne(view, pivot, blades);
+    return;
+  }
+  const LocatedEdge& before = doubtful.edge;
+  LocatedEdge& after = found->blade.edge;
+  if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
+    return;
+  const bool towards_rival = LiesInwards(doubtful, pivot) == (before.rival_px > 0);
+  if (towards_rival) AddSigma(&after, BeyondPivotPx(found->asymmetry, pivot, *blades));
+  Replace(*found, kWhereMirrored, &doubtful);
+}
+
 // Edges that do not mirror each other: the one that is better seen where the other puts it. A clear
-// edge is not left for where a doubtful one puts it.
+// edge is not left for where a doubtful one puts it. Else the doubtful one.
 void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, pivot, *blades);
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
@@ -68,44 +107,16 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   };
   const bool upper_better = is_better(upper, true, !lower);
   const bool lower_better = is_better(lower, false, !upper);
-  if (upper_better && lower_better) return;
-  if (upper_better) {
-    Replace(*upper, kWhereMirrored, &blades->upper);
-  } else if (lower_better) {
-    Replace(*lower, kWhereMirrored, &blades->lower);
-  } else {
-    BorrowInnerOne(view, line, pivot, blades);
-  }
-}
-
-// By how much edges of that asymmetry differ beyond what the pivot accounts for. px
-double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades) {
-  const double off_px = ShareInPx(asymmetry, pivot, blades);
-  const double by_pivot_px = PartedByPivotPx(pivot, blades);
-  return std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px));
-}
-
-// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
-// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror
-// the other one only if it lay nearer to its rival, the border may lie between the two lines.
-void RelocateDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kLess = 0.75;  // of the ambiguity before
-  const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
-  if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
-  if (doubtful.edge.ambiguity < kRival) return;
-  std::optional<RelocatedBlade> found =
-      LookWhereMirrored({view, pivot, other, LineBetween(view, pivot, *blades)});
-  if (!found) {
-    BorrowDoubtfulOne(view, pivot, blades);
+  if (upper_better != lower_better) {
+    Replace(upper_better ? *upper : *lower,
+            kWhereMirrored,
+            upper_better ? &blades->upper : &blades->lower);
     return;
   }
-  const LocatedEdge& before = doubtful.edge;
-  LocatedEdge& after = found->blade.edge;
-  if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
-    return;
-  const bool towards_rival = LiesInwards(doubtful, pivot) == (before.rival_px > 0);
-  if (towards_rival) AddSigma(&after, BeyondPivotPx(found->asymmetry, pivot, *blades));
-  Replace(*found, kWhereMirrored, &doubtful);
+  if (!upper_better) BorrowInnerOne(view, line, pivot, blades);
+  if (!NoneMoved(*blades)) return;
+  RelocateDoubtfulOne(
+      view, pivot, [&](bool upper_one) { return upper_one ? upper : lower; }, blades);
 }
 
 // One of two edges that pass the pivot alike but are unlike in shape, as those of hardly any blades
@@ -221,10 +232,6 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   Replace(*found, kWhereMirrored, &inner);
 }
 
-bool NoneMoved(const Blades& blades) {
-  return blades.upper.moved.empty() && blades.lower.moved.empty();
-}
-
 void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
@@ -241,10 +248,13 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (AreSuspect(pivot.asymmetry)) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
-    if (NoneMoved(*blades)) RelocateDoubtfulOne(view, pivot, blades);
     if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {
-    RelocateDoubtfulOne(view, pivot, blades);
+    const auto look = [&](bool upper) {
+      const MirrorLine line = LineBetween(view, pivot, *blades);
+      return LookWhereMirrored({view, pivot, OneOf(blades, upper).other, line});
+    };
+    RelocateDoubtfulOne(view, pivot, look, blades);
   }
 }
 

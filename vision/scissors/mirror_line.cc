@@ -63,38 +63,38 @@ MirrorLine LineBetweenEnds(const BladeView& view, const Pivot& pivot, const Blad
   return {map, origin, (direction(blades.upper) + direction(blades.lower)).normalized()};
 }
 
-std::vector<MirrorTurn> TurnsFromMirrored(const MirrorLine& line,
-                                          const LocatedBlade& blade,
-                                          const LocatedBlade& other) {
+EdgeGap GapFromMirrored(const MirrorLine& line,
+                        const LocatedBlade& blade,
+                        const LocatedBlade& other) {
   const auto from_pivot = [&](const Vector2d& image_px) -> Vector2d {
     return line.map.PlaneFromImage(image_px) - line.pivot;
   };
   std::vector<Vector2d> mirrored;  // ever further
   for (const LocatedEdgePoint& p : other.used)
     mirrored.push_back(from_pivot(line.Reflected(p.trend_px)));
-  std::vector<MirrorTurn> turns;
+  EdgeGap gap;
   std::size_t next = 0;
   for (const LocatedEdgePoint& p : blade.used) {
     const Vector2d ray = from_pivot(p.trend_px);
     const double radius = ray.norm();
     while (next < mirrored.size() && mirrored[next].norm() < radius) ++next;
     if (next == 0 || next == mirrored.size()) continue;
-    turns.push_back({radius, Cross(mirrored[next], ray) / (radius * radius)});
+    gap.along.push_back(radius);
+    gap.apart.push_back(Cross(mirrored[next], ray) / radius);
   }
-  return turns;
+  return gap;
 }
 
 double ShapeDifference(const BladeView& view, const Pivot& pivot, const Blades& blades) {
   constexpr double kMostOfIt = 0.8;
-  const std::vector<MirrorTurn> turns =
-      TurnsFromMirrored(LineBetween(view, pivot, blades), blades.upper, blades.lower);
-  if (turns.empty()) return 0;
-  std::vector<double> angles, asides;
-  for (const MirrorTurn& turn : turns) angles.push_back(turn.rad);
-  const double best_rad = Median(std::move(angles));
-  for (const MirrorTurn& turn : turns)
-    asides.push_back(std::abs(turn.rad - best_rad) * turn.radius_mm);
-  return SampleQuantile(asides, kMostOfIt) / turns.back().radius_mm;
+  const EdgeGap gap = GapFromMirrored(LineBetween(view, pivot, blades), blades.upper, blades.lower);
+  if (gap.along.empty()) return 0;
+  std::vector<double> turns, asides;
+  for (std::size_t i = 0; i < gap.along.size(); ++i) turns.push_back(gap.apart[i] / gap.along[i]);
+  const double best_turn = Median(std::move(turns));
+  for (std::size_t i = 0; i < gap.along.size(); ++i)
+    asides.push_back(std::abs(gap.apart[i] - best_turn * gap.along[i]));
+  return SampleQuantile(asides, kMostOfIt) / gap.along.back();
 }
 
 }  // namespace bladecurve

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "vision/pivot/edge_gap.h"
 #include "vision/pivot/pivot.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scale/plane_map.h"
@@ -51,16 +51,11 @@ struct MirrorLine {
                                          const Pivot& pivot,
                                          const Blades& blades);
 
-// By how much an edge is turned, about the pivot and at a distance from it, from where the other's
-// mirror image lies; in the plane of the edges.
-struct MirrorTurn {
-  double radius_mm = 0, rad = 0;
-};
-
-// Of an edge's points, from the pivot outwards, as far as the other one reaches.
-[[nodiscard]] std::vector<MirrorTurn> TurnsFromMirrored(const MirrorLine& line,
-                                                        const LocatedBlade& blade,
-                                                        const LocatedBlade& other);
+// How far aside of the other's mirror image an edge lies at each distance from the pivot that both
+// reach, from there outwards; in the plane of the edges, mm, anticlockwise.
+[[nodiscard]] EdgeGap GapFromMirrored(const MirrorLine& line,
+                                      const LocatedBlade& blade,
+                                      const LocatedBlade& other);
 
 // How far one edge lies from the other's mirror image, turned about the pivot as far as fits them
 // best: what all but a fifth of it keeps to, as a share of the blades' length. Where the mirror is
