@@ -156,7 +156,10 @@ std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse&
   if (!lit) return std::nullopt;
   const double plate = MedianOf(around.plate);
   const double step = std::max(kLeastStep, std::abs(MedianOf(around.head) - plate));
-  const Sector bright(around, *lit), dark(around, (*lit + kDirections / 2) % kDirections);
+  const Sector bright(around, *lit);
+  Sector dark(around, (*lit + kDirections / 2) % kDirections);
+  // A wide one covers part of what is looked at of the head there.
+  dark.head = std::max(dark.head, MedianOf(around.head));
   const Index from = around.RowsUpTo(kCrescentFrom), count = around.RowsUpTo(kCrescentTo) - from;
   Index brightest = 0, darkest = 0;
   const double height = bright.light.segment(from, count).maxCoeff(&brightest) -
