@@ -129,6 +129,20 @@ TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsMoreClearly) {
   }
 }
 
+// The arc of a tip that is cut off square is not quite where the step along the edge ends.
+TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsNearAClearerArc) {
+  constexpr double kFaded = kLength - 35;  // px
+  for (const double evidence : {100.0, 1000.0}) {
+    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kLength, 7, false)};
+    blades.lower.rival_ends = {BladeOnRay(false, kLength - 6, 1, true).end};
+    blades.lower.rival_ends[0].evidence = evidence;
+    AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
+    const double length = evidence > 100 ? kLength : kFaded;
+    EXPECT_NEAR(LengthOf(blades.lower), length, kExact) << evidence;
+    EXPECT_NEAR(LengthOf(blades.upper), length, kExact) << evidence;
+  }
+}
+
 TEST(AgreeOnEnds, TakesTheLongerOfTwoBladesThatBothFade) {
   Blades blades{BladeOnRay(true, kLength, 5, false), BladeOnRay(false, kLength - 25, 5, false)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);

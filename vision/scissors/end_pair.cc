@@ -152,16 +152,30 @@ void DoubtShadowsArc(const Pivot& pivot, LocatedBlade* blade) {
 
 constexpr double kMoreClearly = 1.5;  // times the evidence
 
+// How clearly a blade is seen to end about there: by its end's arc, or by one that differs from
+// that by no more than either is known to. 0 by none.
+double EvidenceOfEnd(const LocatedBlade& blade) {
+  constexpr double kSame = 2;  // standard uncertainties
+  double most = blade.end.evidence;
+  for (const DistalEnd& rival : blade.rival_ends) {
+    const double apart_px = (rival.point_px - blade.end.point_px).norm();
+    if (apart_px < kSame * std::hypot(rival.along_sigma_px, blade.end.along_sigma_px))
+      most = std::max(most, rival.evidence);
+  }
+  return most;
+}
+
 // Whether the shorter blade's tip fades into its ground. Nothing else makes a blade that much
 // shorter than the other one: shadows of tips lie nearer, and are seen no better.
 bool ShorterOneFades(const EndComparison& both, const Blades& blades) {
   constexpr double kFaded = 0.06;  // of the length
   if (std::abs(both.gap) < kFaded * both.upper.length) return false;
   const bool upper_shorter = both.gap < 0;
-  const DistalEnd& shorter = upper_shorter ? blades.upper.end : blades.lower.end;
-  const DistalEnd& longer = upper_shorter ? blades.lower.end : blades.upper.end;
-  if (longer.arc_seen != shorter.arc_seen) return false;
-  return !longer.arc_seen || longer.evidence > kMoreClearly * shorter.evidence;
+  const LocatedBlade& shorter = upper_shorter ? blades.upper : blades.lower;
+  const LocatedBlade& longer = upper_shorter ? blades.lower : blades.upper;
+  const double evidence = EvidenceOfEnd(longer);
+  if (!shorter.end.arc_seen) return !longer.end.arc_seen;
+  return evidence > kMoreClearly * shorter.end.evidence;
 }
 
 // Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
