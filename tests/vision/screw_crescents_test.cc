@@ -26,23 +26,28 @@ const Vector2d kCenter(40.3, 39.6);
 
 // A head that stands up on a plate, in linear light: its top, a chamfer that is lit towards the
 // lamp and dark away from it, and the shadow that it casts.
-double LightAt(const Vector2d& place, double top, const Vector2d& to_lamp, double shadow_px) {
-  constexpr double kPlate = 0.3, kGlint = 0.9, kDark = 0.05, kHalfLit = 0.6;
+struct Head {
+  double top = 0, plate = 0.3, glint = 0.9, dark = 0.05;
+  double shadow_px = 2;
+};
+
+double LightAt(const Vector2d& place, const Head& head, const Vector2d& to_lamp) {
+  constexpr double kHalfLit = 0.6;
   const Vector2d out = place - kCenter;
-  if (out.norm() < kRadiusPx) return top;
+  if (out.norm() < kRadiusPx) return head.top;
   if (out.norm() < kRadiusPx + kChamferPx)
-    return out.normalized().dot(to_lamp) > kHalfLit ? kGlint : kDark;
-  return (out + shadow_px * to_lamp).norm() < kRadiusPx + kChamferPx ? kDark : kPlate;
+    return out.normalized().dot(to_lamp) > kHalfLit ? head.glint : head.dark;
+  return (out + head.shadow_px * to_lamp).norm() < kRadiusPx + kChamferPx ? head.dark : head.plate;
 }
 
 // CV_32F, linear.
-cv::Mat RaisedHead(double top, const Vector2d& to_lamp, double shadow_px) {
+cv::Mat RaisedHead(const Head& head, const Vector2d& to_lamp) {
   constexpr double kBlurPx = 0.7;
   cv::Mat fine(kSide * kFiner, kSide * kFiner, CV_32FC1), light;
   for (int y = 0; y < fine.rows; ++y) {
     for (int x = 0; x < fine.cols; ++x) {
       const Vector2d place((x + 0.5) / kFiner - 0.5, (y + 0.5) / kFiner - 0.5);
-      fine.at<float>(y, x) = static_cast<float>(LightAt(place, top, to_lamp, shadow_px));
+      fine.at<float>(y, x) = static_cast<float>(LightAt(place, head, to_lamp));
     }
   }
   cv::GaussianBlur(fine, fine, {}, kFiner * kBlurPx);
@@ -77,11 +82,11 @@ Vector2d Lamp(int lamp) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-void ExpectCentre(double top, double shadow_px, double within_px) {
+void ExpectCentre(const Head& head, double within_px) {
   constexpr double kSigmas = 2.5;
   for (int lamp = 0; lamp < kLamps; ++lamp) {
     SCOPED_TRACE(lamp);
-    const std::optional<Screw> screw = FindIn(Encoded(RaisedHead(top, Lamp(lamp), shadow_px)));
+    const std::optional<Screw> screw = FindIn(Encoded(RaisedHead(head, Lamp(lamp))));
     ASSERT_TRUE(screw);
     const Vector2d off = screw->center_px - kCenter;
     EXPECT_LT(off.norm(), within_px);
@@ -91,14 +96,18 @@ void ExpectCentre(double top, double shadow_px, double within_px) {
 
 // A rim that rises, or falls, all round lies aside by up to half of chamfer and shadow.
 TEST(LeaveCrescents, TakesTheCentreOfARaisedHeadBackBeforeTheLamp) {
-  constexpr double kDarkTop = 0.15, kBrightTop = 0.45;
-  ExpectCentre(kDarkTop, 2, 0.6);
-  ExpectCentre(kBrightTop, 2, 0.6);
+  ExpectCentre({.top = 0.15}, 0.6);
+  ExpectCentre({.top = 0.45}, 0.6);
 }
 
 TEST(LeaveCrescents, TakesItBackByAWideShadowToo) {
-  constexpr double kTop = 0.22;
-  ExpectCentre(kTop, 6, 1.2);
+  ExpectCentre({.top = 0.22, .shadow_px = 6}, 1.2);
+}
+
+// White is as bright as a glint gets.
+TEST(LeaveCrescents, TakesItBackOnABrightPlateToo) {
+  for (const double glint : {1.0, 1.4})
+    ExpectCentre({.top = 0.35, .plate = 0.75, .glint = glint, .dark = 0.15, .shadow_px = 3}, 1);
 }
 
 TEST(LeaveCrescents, LeavesARimThatHasNone) {

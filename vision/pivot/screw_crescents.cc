@@ -148,6 +148,7 @@ std::optional<int> LitDirection(const Surroundings& around) {
 
 std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse& rim) {
   constexpr double kLeast = 0.015, kOfStep = 0.7;  // light
+  constexpr double kOfRoom = 0.5;                  // of what is left up to white, if that is less
   constexpr double kOpposite = 0.35;               // of the height
   constexpr double kWidest = 0.28;                 // out of the rim, of its radius
   constexpr double kLeastStep = 0.02, kLeastDepth = 0.003, kLeastDeep = 0.08;
@@ -162,12 +163,12 @@ std::optional<Crescents> FindCrescents(const cv::Mat& picture, const RimEllipse&
   dark.head = std::max(dark.head, MedianOf(around.head));
   const Index from = around.RowsUpTo(kCrescentFrom), count = around.RowsUpTo(kCrescentTo) - from;
   Index brightest = 0, darkest = 0;
-  const double height = bright.light.segment(from, count).maxCoeff(&brightest) -
-                        std::max({bright.head, bright.plate, plate});
+  const double beside = std::max({bright.head, bright.plate, plate});
+  const double height = bright.light.segment(from, count).maxCoeff(&brightest) - beside;
   const double opposite =
       dark.light.segment(from, count).maxCoeff() - std::max({dark.head, dark.plate, plate});
-  if (height < std::max(kLeast, kOfStep * step) || opposite > kOpposite * height)
-    return std::nullopt;
+  const double least = std::max(kLeast, std::min(kOfStep * step, kOfRoom * (1 - beside)));
+  if (height < least || opposite > kOpposite * height) return std::nullopt;
   Crescents found;
   found.to_light = (rim.shape * Surroundings::DirectionOf(*lit)).normalized();
   found.bright = BordersAbout(around, bright, from + brightest);
