@@ -90,6 +90,18 @@ TEST(AgreeOnEnds, LeavesFreelyPhotographedBladesTheirLengths) {
   EXPECT_FALSE(blades.ends_contradict);
 }
 
+TEST(AgreeOnEnds, DoubtsTheEndOfABladeThatNoSlantMakesSoShort) {
+  for (const bool arc_seen : {true, false}) {
+    const double length = (arc_seen ? 0.85 : 0.92) * kLength;
+    Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, length, 1, arc_seen)};
+    AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
+    EXPECT_NEAR(LengthOf(blades.lower), length, kExact);
+    EXPECT_GE(blades.lower.end.along_sigma_px, 0.5 * (kLength - length));
+    EXPECT_EQ(blades.upper.end.along_sigma_px, 1);
+    EXPECT_TRUE(blades.ends_contradict);
+  }
+}
+
 TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   for (const bool upper_seen : {false, true}) {
     Blades blades{BladeOnRay(true, upper_seen ? kLength : kLength - 40, 1, upper_seen),

@@ -134,6 +134,21 @@ void DoubtBoth(const EndComparison& both, Blades* blades) {
   SetSigma(both.lower, std::hypot(both.lower.sigma, doubt), &blades->lower);
 }
 
+// Where one blade looks shorter than blades look at any slant that they are photographed at, or at
+// most without a tip's arc, what is seen of it last may be no tip. Whether it is so.
+bool DoubtFarShorterOne(const EndComparison& both, Blades* blades) {
+  constexpr double kAtAnySlant = 0.125, kAtMost = 0.06;  // of the length
+  constexpr double kShare = 0.5;                         // of the gap, standard
+  const bool upper_shorter = both.gap < 0;
+  const Reach& reach = upper_shorter ? both.upper : both.lower;
+  LocatedBlade& shorter = upper_shorter ? blades->upper : blades->lower;
+  const double longer = std::max(both.upper.length, both.lower.length);
+  const double by_slant = (shorter.end.arc_seen ? kAtAnySlant : kAtMost) * longer;
+  if (std::abs(both.gap) < by_slant) return false;
+  SetSigma(reach, std::hypot(reach.sigma, kShare * both.gap), &shorter);
+  return true;
+}
+
 // Whether an arc is seen across which the picture steps the other way than across the edge.
 bool IsShadows(const DistalEnd& end) { return end.arc_seen && end.evidence == 0; }
 
@@ -231,6 +246,7 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
     if (std::max(upper_rank, lower_rank) > kShadowsRank)
       return Follow(both, lower_rank > upper_rank, blades);
   }
+  if (!scale.sheet && DoubtFarShorterOne(both, blades)) blades->ends_contradict = true;
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) DoubtShadowsArc(pivot, blade);
   if (scale.sheet) Fuse(compare(), blades);
 }

@@ -17,8 +17,9 @@ namespace bladecurve {
 // alone, or on the other one that of a shadow, the other's end is put at that blade's length; so is
 // the end of a blade that is shorter by far, as where its tip fades into the ground, if the longer
 // one's arc is seen more clearly, or neither is seen at all; else both become as uncertain as they
-// differ. Without markers a slant may be the reason, and the ends stay; so they do about a given
-// pivot that does not lie behind the blades. Changes `end`, not `used`, and sets `ends_contradict`.
+// differ. Without markers a slant may be the reason, and the ends stay; the shorter one's is
+// doubted where no slant is. They stay, too, about a given pivot that does not lie behind the
+// blades. Changes `end`, not `used`, and sets `ends_contradict`.
 void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades);
 
 // Refuses blades whose ends contradict each other if the shorter one, as long as the other, would
