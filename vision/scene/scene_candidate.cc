@@ -17,6 +17,7 @@
 #include "vision/scene/beyond_tips.h"
 #include "vision/scene/closed_shape.h"
 #include "vision/scene/silhouette.h"
+#include "vision/scene/touching_handles.h"
 
 namespace bladecurve {
 namespace {
@@ -100,6 +101,21 @@ void DoubtEdgesOfHidden(const cv::Mat& hidden, Candidate* candidate) {
     candidate->pair.quality = candidate->pair.worst_grade = 0;
     candidate->pair.doubt = "an edge is the border of a marker's paper";
   }
+}
+
+// The pairs of a thing whose handles may touch, the likeliest first.
+std::vector<BladePair> PairsOf(const cv::Mat& mask,
+                               const Silhouette& silhouette,
+                               const cv::Mat& hidden) {
+  std::vector<BladePair> pairs = FindBladePairs(silhouette, hidden);
+  if (!pairs.empty() && Likelihood(pairs.front()) >= kAcceptedQuality) return pairs;
+  for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
+    std::vector<BladePair> of_parted = FindBladePairs(parted, hidden);
+    const bool likelier = !of_parted.empty() && (pairs.empty() || Likelihood(of_parted.front()) >
+                                                                      Likelihood(pairs.front()));
+    if (likelier) pairs = std::move(of_parted);
+  }
+  return pairs;
 }
 
 // Blades beyond whose tips other things go on are stubs of shanks, of whose outline some was lost.
@@ -220,7 +236,7 @@ Rung SeenIn(const cv::Mat& mask,
   Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
     double quality = 0;
-    for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
+    for (BladePair& pair : PairsOf(mask, silhouette, hidden)) {
       if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
       if (pair.quality < kWorthKeeping) continue;
       if (!AgreesWithHints(pair, *like.at, hints)) {
