@@ -10,6 +10,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <vector>
 
 #include "vision/image/tone_curve.h"
 #include "vision/pivot/screw.h"
@@ -20,7 +21,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kSide = 81, kFiner = 4, kLamps = 6;
+constexpr int kSide = 81, kFiner = 4;
 constexpr double kRadiusPx = 13, kChamferPx = 2;
 const Vector2d kCenter(40.3, 39.6);
 
@@ -29,25 +30,31 @@ const Vector2d kCenter(40.3, 39.6);
 struct Head {
   double top = 0, plate = 0.3, glint = 0.9, dark = 0.05;
   double shadow_px = 2;
+  double half_lit = 0.6;  // cosine: of a glint, to its middle
 };
 
-double LightAt(const Vector2d& place, const Head& head, const Vector2d& to_lamp) {
-  constexpr double kHalfLit = 0.6;
+// The first lamp casts the shadow.
+double LightAt(const Vector2d& place, const Head& head, const std::vector<Vector2d>& to_lamps) {
   const Vector2d out = place - kCenter;
   if (out.norm() < kRadiusPx) return head.top;
-  if (out.norm() < kRadiusPx + kChamferPx)
-    return out.normalized().dot(to_lamp) > kHalfLit ? head.glint : head.dark;
-  return (out + head.shadow_px * to_lamp).norm() < kRadiusPx + kChamferPx ? head.dark : head.plate;
+  if (out.norm() < kRadiusPx + kChamferPx) {
+    const bool shines = std::any_of(to_lamps.begin(), to_lamps.end(), [&](const Vector2d& lamp) {
+      return out.normalized().dot(lamp) > head.half_lit;
+    });
+    return shines ? head.glint : head.dark;
+  }
+  return (out + head.shadow_px * to_lamps.front()).norm() < kRadiusPx + kChamferPx ? head.dark
+                                                                                   : head.plate;
 }
 
 // CV_32F, linear.
-cv::Mat RaisedHead(const Head& head, const Vector2d& to_lamp) {
+cv::Mat RaisedHead(const Head& head, const std::vector<Vector2d>& to_lamps) {
   constexpr double kBlurPx = 0.7;
   cv::Mat fine(kSide * kFiner, kSide * kFiner, CV_32FC1), light;
   for (int y = 0; y < fine.rows; ++y) {
     for (int x = 0; x < fine.cols; ++x) {
       const Vector2d place((x + 0.5) / kFiner - 0.5, (y + 0.5) / kFiner - 0.5);
-      fine.at<float>(y, x) = static_cast<float>(LightAt(place, head, to_lamp));
+      fine.at<float>(y, x) = static_cast<float>(LightAt(place, head, to_lamps));
     }
   }
   cv::GaussianBlur(fine, fine, {}, kFiner * kBlurPx);
@@ -77,16 +84,20 @@ std::optional<Screw> FindIn(const cv::Mat& grey) {
   return FindScrew(grey, SrgbToneCurve(), search);
 }
 
-Vector2d Lamp(int lamp) {
-  const double angle = 2 * std::numbers::pi * (lamp + 0.3) / kLamps;
+Vector2d Towards(double turns) {
+  const double angle = 2 * std::numbers::pi * turns;
   return {std::cos(angle), std::sin(angle)};
 }
 
-void ExpectCentre(const Head& head, double within_px) {
+// `lamps`: where they stand, in turns about the head.
+void ExpectCentre(const Head& head, double within_px, const std::vector<double>& lamps = {0}) {
   constexpr double kSigmas = 2.5;
-  for (int lamp = 0; lamp < kLamps; ++lamp) {
-    SCOPED_TRACE(lamp);
-    const std::optional<Screw> screw = FindIn(Encoded(RaisedHead(head, Lamp(lamp))));
+  constexpr int kTurns = 6;
+  for (int turn = 0; turn < kTurns; ++turn) {
+    SCOPED_TRACE(turn);
+    std::vector<Vector2d> to_lamps;
+    for (const double lamp : lamps) to_lamps.push_back(Towards((turn + 0.3) / kTurns + lamp));
+    const std::optional<Screw> screw = FindIn(Encoded(RaisedHead(head, to_lamps)));
     ASSERT_TRUE(screw);
     const Vector2d off = screw->center_px - kCenter;
     EXPECT_LT(off.norm(), within_px);
@@ -108,6 +119,14 @@ TEST(LeaveCrescents, TakesItBackByAWideShadowToo) {
 TEST(LeaveCrescents, TakesItBackOnABrightPlateToo) {
   for (const double glint : {1.0, 1.4})
     ExpectCentre({.top = 0.35, .plate = 0.75, .glint = glint, .dark = 0.15, .shadow_px = 3}, 1);
+}
+
+// A rim that rises is followed along the inner borders of the glints.
+TEST(LeaveCrescents, TakesItToTheFootThatTwoGlintsShow) {
+  ExpectCentre(
+      {.top = 0.3, .plate = 0.45, .glint = 1.4, .dark = 0.3, .shadow_px = 0, .half_lit = 0.9},
+      0.75,
+      {0, 0.32});
 }
 
 TEST(LeaveCrescents, LeavesARimThatHasNone) {

@@ -13,7 +13,8 @@ namespace bladecurve {
 // that rises all round, or falls, is followed along the inner border of the one and the outer
 // border of the other, and lies aside of the head by half of what parts them. Takes the rim's
 // centre back as far as the crescents tell, and counts the rest in its covariance, along the light.
-// The same rim where there are none. light: CV_32F, linear, at full resolution.
+// The same rim where there are none; where several lamps put glints there, as LeaveGlints has it.
+// light: CV_32F, linear, at full resolution.
 [[nodiscard]] RimFit LeaveCrescents(const cv::Mat& light, RimFit fit);
 
 }  // namespace bladecurve
