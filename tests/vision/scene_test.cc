@@ -34,6 +34,7 @@
 #include "vision/scene/scene_ladder.h"
 #include "vision/scene/sharp_gradient.h"
 #include "vision/scene/silhouette.h"
+#include "vision/scene/touching_handles.h"
 #include "vision/stage_log.h"
 
 namespace bladecurve {
@@ -291,6 +292,34 @@ TEST(FindBladePairs, FindsTheTipsThoughAFingerThatHoldsARingReachesFurther) {
 }
 
 // What the markers of a small card leave of it, seen a little from the side.
+// As of household scissors that open little.
+cv::Mat WithRings(int apart_px) {
+  cv::Mat mask = cv::Mat::zeros(400, 700, CV_8UC1);
+  const cv::Point joint(400, 200);
+  for (const int sign : {-1, 1}) {
+    const cv::Point tip(640, 200 - 30 * sign), ring(150, 200 + apart_px / 2 * sign);
+    const std::vector<cv::Point> blade{tip, joint + cv::Point(0, -18), joint + cv::Point(0, 18)};
+    cv::fillConvexPoly(mask, blade, 255);
+    cv::line(mask, joint, ring + cv::Point(50, -10 * sign), 255, 16);
+    cv::circle(mask, ring, 50, 255, 14);
+  }
+  return mask;
+}
+
+TEST(WithHandlesParted, OpensTheGapBetweenShanksWhoseRingsTouch) {
+  constexpr double kPlain = 0.8, kNone = 0.2;
+  const cv::Mat touching = WithRings(104), apart = WithRings(130);
+  const Silhouette closed = FindSilhouettes(touching, 1).front();
+  const std::vector<BladePair> before = FindBladePairs(closed, {});
+  EXPECT_TRUE(before.empty() || before.front().quality < kNone);
+  double best = 0;
+  for (const Silhouette& parted : WithHandlesParted(touching, closed)) {
+    for (const BladePair& pair : FindBladePairs(parted, {})) best = std::max(best, pair.quality);
+  }
+  EXPECT_GT(best, kPlain);
+  EXPECT_TRUE(WithHandlesParted(apart, FindSilhouettes(apart, 1).front()).empty());
+}
+
 TEST(SeenIn, TakesTheGapsBetweenMarkersForNoScissors) {
   const cv::Size size(400, 400);
   const auto seen_from_aside = [&](const std::vector<cv::Rect>& rectangles) {
