@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -103,21 +104,6 @@ void DoubtEdgesOfHidden(const cv::Mat& hidden, Candidate* candidate) {
   }
 }
 
-// The pairs of a thing whose handles may touch, the likeliest first.
-std::vector<BladePair> PairsOf(const cv::Mat& mask,
-                               const Silhouette& silhouette,
-                               const cv::Mat& hidden) {
-  std::vector<BladePair> pairs = FindBladePairs(silhouette, hidden);
-  if (!pairs.empty() && Likelihood(pairs.front()) >= kAcceptedQuality) return pairs;
-  for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
-    std::vector<BladePair> of_parted = FindBladePairs(parted, hidden);
-    const bool likelier = !of_parted.empty() && (pairs.empty() || Likelihood(of_parted.front()) >
-                                                                      Likelihood(pairs.front()));
-    if (likelier) pairs = std::move(of_parted);
-  }
-  return pairs;
-}
-
 // Blades beyond whose tips other things go on are stubs of shanks, of whose outline some was lost.
 void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pair) {
   if (!GoOnBeyondTips(mask, silhouette, *pair)) return;
@@ -203,6 +189,34 @@ bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredH
   return !hints.pivot_px || LiesOnJoint(at.SmallFromFull(*hints.pivot_px), pair);
 }
 
+// Of a thing in the mask, the likeliest pair that is worth keeping and agrees with the hints.
+// `contradicting`: as of a rung.
+std::optional<Candidate> LikeliestIn(const Silhouette& silhouette,
+                                     const cv::Mat& mask,
+                                     const Candidate& like,
+                                     const cv::Mat& hidden,
+                                     const StoredHints& hints,
+                                     double* contradicting) {
+  constexpr double kWorthKeeping = 0.2;  // what clutter reaches
+  for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
+    if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
+    if (pair.quality < kWorthKeeping) continue;
+    if (!AgreesWithHints(pair, *like.at, hints)) {
+      *contradicting = std::max(*contradicting, pair.quality);
+      continue;
+    }
+    Candidate candidate = like;
+    JudgeEdges(pair, &candidate);
+    candidate.pair = std::move(pair);
+    if (!like.outlined) DoubtSoftEdges(&candidate);
+    DoubtEdgesOfHidden(hidden, &candidate);
+    if (!like.patterned) DoubtShiningGap(&candidate);
+    candidate.mask = mask;
+    return candidate;
+  }
+  return std::nullopt;
+}
+
 // Fills in `agreeing`.
 void CountAgreeing(std::vector<Candidate>* candidates) {
   for (Candidate& a : *candidates) {
@@ -230,31 +244,21 @@ Rung SeenIn(const cv::Mat& mask,
             const Candidate& like,
             const cv::Mat& hidden,
             const StoredHints& hints) {
-  constexpr int kMostThings = 4;         // a ruler, a card, a label, and the scissors
-  constexpr double kWorthKeeping = 0.2;  // what clutter reaches
+  constexpr int kMostThings = 4;  // a ruler, a card, a label, and the scissors
   constexpr double kPlainlyOpen = 0.8;
   Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
-    double quality = 0;
-    for (BladePair& pair : PairsOf(mask, silhouette, hidden)) {
-      if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
-      if (pair.quality < kWorthKeeping) continue;
-      if (!AgreesWithHints(pair, *like.at, hints)) {
-        seen.contradicting = std::max(seen.contradicting, pair.quality);
-        continue;
-      }
-      Candidate candidate = like;
-      JudgeEdges(pair, &candidate);
-      candidate.pair = std::move(pair);
-      if (!like.outlined) DoubtSoftEdges(&candidate);
-      DoubtEdgesOfHidden(hidden, &candidate);
-      if (!like.patterned) DoubtShiningGap(&candidate);
-      candidate.mask = mask;
-      quality = candidate.pair.quality;
-      seen.candidates.push_back(std::move(candidate));
-      break;  // the likeliest pair of each thing
-    }
+    const auto likeliest = [&](const Silhouette& thing) {
+      return LikeliestIn(thing, mask, like, hidden, hints, &seen.contradicting);
+    };
+    const std::optional<Candidate> candidate = likeliest(silhouette);
+    const double quality = candidate ? candidate->pair.quality : 0;
+    if (candidate) seen.candidates.push_back(*candidate);
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
+    if (quality >= kAcceptedQuality || like.outlined) continue;
+    for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
+      if (const auto touching = likeliest(parted)) seen.touching.push_back(*touching);
+    }
   }
   return seen;
 }
@@ -264,6 +268,8 @@ void Add(Rung seen, Rung* rung) {
   rung->closed += seen.closed;
   rung->contradicting = std::max(rung->contradicting, seen.contradicting);
   CountAgreeing(&rung->candidates);
+  std::move(seen.touching.begin(), seen.touching.end(), std::back_inserter(rung->touching));
+  CountAgreeing(&rung->touching);
 }
 
 }  // namespace bladecurve

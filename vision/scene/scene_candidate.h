@@ -42,6 +42,8 @@ struct Candidate {
 struct Rung {
   std::string method;  // as of its candidates
   std::vector<Candidate> candidates;
+  // What else things show if their handles touch. A blade beside its shadow looks so, too.
+  std::vector<Candidate> touching;
   int closed = 0;            // masks in which something looks like closed scissors
   double contradicting = 0;  // quality of the likeliest pair that hints speak against
   cv::Mat distance;          // from the background, or how sharply it is walled in; CV_32FC1

@@ -21,6 +21,7 @@ constexpr int kSmallestSide = 120;  // no blade of such a picture has an edge th
 LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
   for (const Rung& rung : stage) {
     all->candidates.insert(all->candidates.end(), rung.candidates.begin(), rung.candidates.end());
+    all->touching.insert(all->touching.end(), rung.touching.begin(), rung.touching.end());
     all->closed = std::max(all->closed, rung.closed);
     all->contradicting = std::max(all->contradicting, rung.contradicting);
   }
@@ -129,6 +130,16 @@ const std::vector<Rung>& SceneLadder::See(const std::string& stage,
 LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
   Rung all;
   LadderResult result = ClimbIn(plan, looked, &all);
+  if (!ShowsWholeBlades(result)) {
+    constexpr int kAgreeing = 2;
+    LadderResult touching = Choose(all.touching);
+    if (ShowsWholeBlades(touching) && touching.best.agreeing >= kAgreeing) {
+      log_->Ran("scene-handles", "nothing else shows blades: handles that touch may be parted");
+      all.candidates = std::move(all.touching);
+      touching.climbed = true;
+      result = std::move(touching);
+    }
+  }
   result.seen = std::move(all.candidates);
   return result;
 }
