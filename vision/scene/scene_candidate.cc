@@ -248,16 +248,16 @@ Rung SeenIn(const cv::Mat& mask,
   constexpr double kPlainlyOpen = 0.8;
   Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
-    const auto likeliest = [&](const Silhouette& thing) {
-      return LikeliestIn(thing, mask, like, hidden, hints, &seen.contradicting);
-    };
-    const std::optional<Candidate> candidate = likeliest(silhouette);
+    const std::optional<Candidate> candidate =
+        LikeliestIn(silhouette, mask, like, hidden, hints, &seen.contradicting);
     const double quality = candidate ? candidate->pair.quality : 0;
     if (candidate) seen.candidates.push_back(*candidate);
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
     if (quality >= kAcceptedQuality || like.outlined) continue;
     for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
-      if (const auto touching = likeliest(parted)) seen.touching.push_back(*touching);
+      double contradicting = 0;  // says nothing: few of them are scissors
+      const auto touching = LikeliestIn(parted, mask, like, hidden, hints, &contradicting);
+      if (touching) seen.touching.push_back(*touching);
     }
   }
   return seen;
