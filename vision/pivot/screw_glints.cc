@@ -25,7 +25,7 @@ struct FootBorder {
 
 // std::nullopt where too little of the chamfer shines, or so much that it is no glint.
 std::optional<FootBorder> FootByGlints(const HeadSurroundings& around) {
-  constexpr double kLeast = 0.05;                // light
+  constexpr double kLeast = 0.1;                 // light
   constexpr double kFewest = 0.15, kMost = 0.6;  // of the directions
   constexpr double kFurthest = 0.28;             // out of the rim, of its radius
   const double plate = around.TypicalPlate(), step = plate - around.TypicalHead();
