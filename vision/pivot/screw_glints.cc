@@ -32,6 +32,8 @@ std::optional<FootBorder> FootByGlints(const HeadSurroundings& around) {
   if (step < 0) return std::nullopt;
   const double least = std::max(kLeast, HeadSurroundings::LeastGlint(step, plate));
   const ArrayXd ridge = around.Ridge();
+  if (static_cast<double>((ridge >= least).count()) < kFewest * HeadSurroundings::kDirections)
+    return std::nullopt;
   FootBorder foot;
   int lit = 0;
   for (int i = 0; i < HeadSurroundings::kDirections; ++i) {

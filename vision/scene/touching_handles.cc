@@ -79,10 +79,13 @@ Silhouette Opened(const Silhouette& silhouette,
 }  // namespace
 
 std::vector<Silhouette> WithHandlesParted(const cv::Mat& mask, const Silhouette& silhouette) {
-  constexpr std::size_t kMost = 4;
+  constexpr std::size_t kMost = 4, kMostHoles = 3;  // ragged masks have more
+  const std::vector<SlenderHole> holes = SlenderHolesOf(mask, silhouette);
+  if (holes.empty() || holes.size() > kMostHoles) return {};
+  const std::vector<Inlet> inlets = FindInlets(silhouette.contour);
   std::vector<Silhouette> parted;
-  for (const SlenderHole& hole : SlenderHolesOf(mask, silhouette)) {
-    for (const Inlet& inlet : FindInlets(silhouette.contour)) {
+  for (const SlenderHole& hole : holes) {
+    for (const Inlet& inlet : inlets) {
       const cv::Point& from = silhouette.contour[static_cast<std::size_t>(inlet.far)];
       const auto to = NearestInLine(hole, from);
       if (to && parted.size() < kMost) parted.push_back(Opened(silhouette, hole, from, *to));
