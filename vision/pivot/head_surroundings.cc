@@ -51,16 +51,17 @@ HeadSurroundings::HeadSurroundings(const cv::Mat& light, const RimEllipse& rim)
   }
   head_ = TypicalOf(0, RowsUpTo(kHeadTo));
   plate_ = TypicalOf(RowsUpTo(kPlateFrom), light_.rows());
+  typical_head_ = MedianOf(head_);
+  typical_plate_ = MedianOf(plate_);
+  const ArrayXd brightest =
+      light_.middleRows(FirstBetween(), CountBetween()).colwise().maxCoeff().transpose();
+  ridge_ = (brightest - head_.max(plate_).max(typical_plate_)).max(0.0);
 }
 
 Vector2d HeadSurroundings::DirectionOf(int i) {
   const double angle = 2 * std::numbers::pi * i / kDirections;
   return {std::cos(angle), std::sin(angle)};
 }
-
-double HeadSurroundings::TypicalHead() const { return MedianOf(head_); }
-
-double HeadSurroundings::TypicalPlate() const { return MedianOf(plate_); }
 
 double HeadSurroundings::OutOfRimPx(double row) const {
   return (kHeadFrom + step_ * row - 1) * radius_px_;
@@ -69,12 +70,6 @@ double HeadSurroundings::OutOfRimPx(double row) const {
 Index HeadSurroundings::FirstBetween() const { return RowsUpTo(kBetweenFrom); }
 
 Index HeadSurroundings::CountBetween() const { return RowsUpTo(kBetweenTo) - FirstBetween(); }
-
-ArrayXd HeadSurroundings::Ridge() const {
-  const ArrayXd brightest =
-      light_.middleRows(FirstBetween(), CountBetween()).colwise().maxCoeff().transpose();
-  return (brightest - head_.max(plate_).max(TypicalPlate())).max(0.0);
-}
 
 double HeadSurroundings::LeastGlint(double step, double beside) {
   constexpr double kOfStep = 0.7, kOfRoom = 0.5;

@@ -23,8 +23,9 @@ class HeadSurroundings {
   // Typical light of each direction, on the head and on the plate about it.
   [[nodiscard]] const Eigen::ArrayXd& head() const { return head_; }
   [[nodiscard]] const Eigen::ArrayXd& plate() const { return plate_; }
-  [[nodiscard]] double TypicalHead() const;
-  [[nodiscard]] double TypicalPlate() const;
+  // Of all directions.
+  [[nodiscard]] double typical_head() const { return typical_head_; }
+  [[nodiscard]] double typical_plate() const { return typical_plate_; }
   [[nodiscard]] double radius_px() const { return radius_px_; }
   [[nodiscard]] double OutOfRimPx(double row) const;
 
@@ -34,7 +35,7 @@ class HeadSurroundings {
 
   // How much brighter than head and plate it is somewhere between them, of each direction; than the
   // plate elsewhere, too, as a groove or another blade's shadow beside the head is no plate.
-  [[nodiscard]] Eigen::ArrayXd Ridge() const;
+  [[nodiscard]] const Eigen::ArrayXd& ridge() const { return ridge_; }
 
   // How much brighter than what lies `beside` it a glint is at least: of the step between head and
   // plate, or of what is left up to white, if that is less.
@@ -47,7 +48,8 @@ class HeadSurroundings {
   double radius_px_ = 0;
   double step_ = 0;  // between rows, of the radius
   Eigen::ArrayXXd light_;
-  Eigen::ArrayXd head_, plate_;
+  Eigen::ArrayXd head_, plate_, ridge_;
+  double typical_head_ = 0, typical_plate_ = 0;
 };
 
 // Typical of the directions about one of them.

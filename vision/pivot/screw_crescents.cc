@@ -30,7 +30,7 @@ struct Crescents {
 std::optional<int> LitDirection(const HeadSurroundings& around) {
   constexpr int kDirections = HeadSurroundings::kDirections;
   constexpr double kToOneSide = 0.6;  // first harmonic over mean
-  const ArrayXd ridge = around.Ridge();
+  const ArrayXd& ridge = around.ridge();
   std::complex<double> harmonic = 0;
   for (int i = 0; i < kDirections; ++i) {
     const Vector2d direction = HeadSurroundings::DirectionOf(i);
@@ -49,12 +49,12 @@ std::optional<Crescents> FindCrescents(const HeadSurroundings& around, const Rim
   constexpr double kLeastStep = 0.02, kLeastDepth = 0.003, kLeastDeep = 0.08;
   const std::optional<int> lit = LitDirection(around);
   if (!lit) return std::nullopt;
-  const double plate = around.TypicalPlate();
-  const double step = std::max(kLeastStep, std::abs(around.TypicalHead() - plate));
+  const double plate = around.typical_plate();
+  const double step = std::max(kLeastStep, std::abs(around.typical_head() - plate));
   const Sector bright(around, *lit);
   Sector dark(around, (*lit + kOpposite) % HeadSurroundings::kDirections);
   // A wide one covers part of what is looked at of the head there.
-  dark.head = std::max(dark.head, around.TypicalHead());
+  dark.head = std::max(dark.head, around.typical_head());
   const Index from = around.FirstBetween(), count = around.CountBetween();
   Index brightest = 0, darkest = 0;
   const double beside = std::max({bright.head, bright.plate, plate});

@@ -28,10 +28,10 @@ std::optional<FootBorder> FootByGlints(const HeadSurroundings& around) {
   constexpr double kLeast = 0.1;                 // light
   constexpr double kFewest = 0.15, kMost = 0.6;  // of the directions
   constexpr double kFurthest = 0.28;             // out of the rim, of its radius
-  const double plate = around.TypicalPlate(), step = plate - around.TypicalHead();
+  const double plate = around.typical_plate(), step = plate - around.typical_head();
   if (step < 0) return std::nullopt;
   const double least = std::max(kLeast, HeadSurroundings::LeastGlint(step, plate));
-  const ArrayXd ridge = around.Ridge();
+  const ArrayXd& ridge = around.ridge();
   if (static_cast<double>((ridge >= least).count()) < kFewest * HeadSurroundings::kDirections)
     return std::nullopt;
   FootBorder foot;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vision/image/nearest_pixel.h"
+#include "vision/image/principal_axis.h"
 #include "vision/image/robust_statistics.h"
 
 namespace bladecurve {
@@ -44,9 +45,7 @@ struct LongBox {
 };
 
 LongBox BoxAround(const std::vector<cv::Point>& contour) {
-  const cv::Moments m = cv::moments(contour);
-  const double angle = 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
-  const Vector2d along(std::cos(angle), std::sin(angle));
+  const Vector2d along = PrincipalAxis(cv::moments(contour));
   const Vector2d across(-along.y(), along.x());
   Vector2d low(kInfinity, kInfinity);
   Vector2d high = -low;

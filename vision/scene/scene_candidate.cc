@@ -248,16 +248,16 @@ Rung SeenIn(const cv::Mat& mask,
   constexpr double kPlainlyOpen = 0.8;
   Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
-    const std::optional<Candidate> candidate =
+    std::optional<Candidate> candidate =
         LikeliestIn(silhouette, mask, like, hidden, hints, &seen.contradicting);
     const double quality = candidate ? candidate->pair.quality : 0;
-    if (candidate) seen.candidates.push_back(*candidate);
+    if (candidate) seen.candidates.push_back(*std::move(candidate));
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
     if (quality >= kAcceptedQuality || like.outlined) continue;
     for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
       double contradicting = 0;  // says nothing: few of them are scissors
-      const auto touching = LikeliestIn(parted, mask, like, hidden, hints, &contradicting);
-      if (touching) seen.touching.push_back(*touching);
+      auto touching = LikeliestIn(parted, mask, like, hidden, hints, &contradicting);
+      if (touching) seen.touching.push_back(*std::move(touching));
     }
   }
   return seen;

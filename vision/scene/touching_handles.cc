@@ -5,10 +5,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
 #include "vision/image/contour_area.h"
+#include "vision/image/principal_axis.h"
 #include "vision/scene/limbs.h"
 
 namespace bladecurve {
@@ -32,9 +34,8 @@ std::optional<SlenderHole> AsSlender(std::vector<cv::Point> contour) {
   const double half_difference = std::hypot(0.5 * (m.mu20 - m.mu02), m.mu11);
   const double longest = mean + half_difference, shortest = mean - half_difference;
   if (longest < kSlender * kSlender * shortest) return std::nullopt;
-  const double angle = 0.5 * std::atan2(2 * m.mu11, m.mu20 - m.mu02);
   const double length_px = std::sqrt(12 * longest / m.m00);  // as of a rectangle
-  return SlenderHole{std::move(contour), {std::cos(angle), std::sin(angle)}, length_px};
+  return SlenderHole{std::move(contour), PrincipalAxis(m), length_px};
 }
 
 std::vector<SlenderHole> SlenderHolesOf(const cv::Mat& mask, const Silhouette& silhouette) {
@@ -64,16 +65,16 @@ std::optional<cv::Point> NearestInLine(const SlenderHole& hole, const cv::Point&
   return nearest;
 }
 
-Silhouette Opened(const Silhouette& silhouette,
-                  const SlenderHole& hole,
-                  const cv::Point& from,
-                  const cv::Point& to) {
+// Its largest part, if that is long enough to be scissors.
+std::vector<Silhouette> Opened(const Silhouette& silhouette,
+                               const SlenderHole& hole,
+                               const cv::Point& from,
+                               const cv::Point& to) {
   constexpr int kCutPx = 3;
   cv::Mat filled = silhouette.filled.clone();
   cv::drawContours(filled, std::vector<std::vector<cv::Point>>{hole.contour}, 0, 0, cv::FILLED);
   cv::line(filled, from, to, 0, kCutPx);
-  std::vector<Silhouette> things = FindSilhouettes(filled, 1);
-  return things.empty() ? silhouette : std::move(things.front());
+  return FindSilhouettes(filled, 1);
 }
 
 }  // namespace
@@ -88,7 +89,8 @@ std::vector<Silhouette> WithHandlesParted(const cv::Mat& mask, const Silhouette&
     for (const Inlet& inlet : inlets) {
       const cv::Point& from = silhouette.contour[static_cast<std::size_t>(inlet.far)];
       const auto to = NearestInLine(hole, from);
-      if (to && parted.size() < kMost) parted.push_back(Opened(silhouette, hole, from, *to));
+      if (!to || parted.size() == kMost) continue;
+      std::ranges::move(Opened(silhouette, hole, from, *to), std::back_inserter(parted));
     }
   }
   return parted;

@@ -79,6 +79,8 @@ struct EndComparison {
     constexpr double kContradict = 3;  // standard uncertainties
     return std::abs(gap) > kContradict * std::sqrt(variance);
   }
+  [[nodiscard]] bool UpperIsShorter() const { return gap < 0; }
+  [[nodiscard]] const Reach& Shorter() const { return UpperIsShorter() ? upper : lower; }
   [[nodiscard]] bool Outwards() const { return upper.outwards && lower.outwards; }
 };
 
@@ -139,13 +141,11 @@ void DoubtBoth(const EndComparison& both, Blades* blades) {
 bool DoubtFarShorterOne(const EndComparison& both, Blades* blades) {
   constexpr double kAtAnySlant = 0.125, kAtMost = 0.06;  // of the length
   constexpr double kShare = 0.5;                         // of the gap, standard
-  const bool upper_shorter = both.gap < 0;
-  const Reach& reach = upper_shorter ? both.upper : both.lower;
-  LocatedBlade& shorter = upper_shorter ? blades->upper : blades->lower;
+  LocatedBlade& shorter = both.UpperIsShorter() ? blades->upper : blades->lower;
   const double longer = std::max(both.upper.length, both.lower.length);
   const double by_slant = (shorter.end.arc_seen ? kAtAnySlant : kAtMost) * longer;
   if (std::abs(both.gap) < by_slant) return false;
-  SetSigma(reach, std::hypot(reach.sigma, kShare * both.gap), &shorter);
+  SetSigma(both.Shorter(), std::hypot(both.Shorter().sigma, kShare * both.gap), &shorter);
   return true;
 }
 
@@ -185,12 +185,10 @@ double EvidenceOfEnd(const LocatedBlade& blade) {
 bool ShorterOneFades(const EndComparison& both, const Blades& blades) {
   constexpr double kFaded = 0.06;  // of the length
   if (std::abs(both.gap) < kFaded * both.upper.length) return false;
-  const bool upper_shorter = both.gap < 0;
-  const LocatedBlade& shorter = upper_shorter ? blades.upper : blades.lower;
-  const LocatedBlade& longer = upper_shorter ? blades.lower : blades.upper;
-  const double evidence = EvidenceOfEnd(longer);
+  const LocatedBlade& shorter = both.UpperIsShorter() ? blades.upper : blades.lower;
+  const LocatedBlade& longer = both.UpperIsShorter() ? blades.lower : blades.upper;
   if (!shorter.end.arc_seen) return !longer.end.arc_seen;
-  return evidence > kMoreClearly * shorter.end.evidence;
+  return EvidenceOfEnd(longer) > kMoreClearly * shorter.end.evidence;
 }
 
 // Of the ends that either blade may have, the two arcs at like lengths that are seen best: shadows
@@ -223,9 +221,8 @@ void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blade
 
 // Where the shorter blade would end if it were as long as the other.
 Vector2d EndOfEqual(const EndComparison& both, const Blades& blades) {
-  const bool upper_is_shorter = both.gap < 0;
-  const Reach& reach = upper_is_shorter ? both.upper : both.lower;
-  const LocatedBlade& blade = upper_is_shorter ? blades.upper : blades.lower;
+  const Reach& reach = both.Shorter();
+  const LocatedBlade& blade = both.UpperIsShorter() ? blades.upper : blades.lower;
   return blade.end.point_px + std::abs(both.gap) / reach.per_px * reach.along_px;
 }
 
@@ -240,7 +237,8 @@ void AgreeOnEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   if (!both.Outwards()) return;
   blades->ends_contradict = both.Contradicts();
   const int upper_rank = Rank(blades->upper.end), lower_rank = Rank(blades->lower.end);
-  if (scale.sheet && ShorterOneFades(both, *blades)) return Follow(both, both.gap < 0, blades);
+  if (scale.sheet && ShorterOneFades(both, *blades))
+    return Follow(both, both.UpperIsShorter(), blades);
   if (scale.sheet && blades->ends_contradict) {
     if (upper_rank == lower_rank) return DoubtBoth(both, blades);
     if (std::max(upper_rank, lower_rank) > kShadowsRank)
