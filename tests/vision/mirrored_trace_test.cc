@@ -143,8 +143,9 @@ TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
 }
 
 // Whether, beside an upper edge that is where it belongs, a line is taken that lies so far outwards
-// of its end, less nearer to the pivot, and is drawn along so much of the blade from the tip on.
-bool TakesLineBeside(double off_px, double share, bool clear) {
+// of its end, less nearer to the pivot, and is drawn along so much of the blade from the tip on, in
+// a picture brightened by so much.
+bool TakesLineBeside(double off_px, double share, bool clear, double brighter = 0) {
   constexpr double kDifferencePx = 6;
   Measured measured{SceneWithMarkers()};
   Measured::MakeClear(&measured.blades.upper);
@@ -159,6 +160,7 @@ bool TakesLineBeside(double off_px, double share, bool clear) {
   course.erase(course.begin(), course.begin() + std::lround((1 - share) * points));
   cv::Mat picture = BareSheet();
   DrawStep(course, &picture);
+  picture += cv::Scalar::all(brighter);
   measured.photo = Measured::PhotoOf(picture);
   return FindMirroredTrace(measured.View(), measured.blades.upper, lower, line, kDifferencePx)
       .has_value();
@@ -167,6 +169,12 @@ bool TakesLineBeside(double off_px, double share, bool clear) {
 TEST(FindMirroredTrace, TakesNoLineThatLeavesTheEdgesEnd) {
   EXPECT_TRUE(TakesLineBeside(9, 1, false));
   EXPECT_FALSE(TakesLineBeside(14, 1, false));
+}
+
+// White as the picture can store, light may do anything.
+TEST(FindMirroredTrace, TakesNoLineInOverexposedLight) {
+  constexpr double kWhitens = 100;
+  EXPECT_FALSE(TakesLineBeside(9, 1, false, kWhitens));
 }
 
 TEST(FindMirroredTrace, LeavesNoClearEdge) {

@@ -172,6 +172,12 @@ struct Support {
   }
 };
 
+// Whether light is somewhere as white as the picture can store: how it goes on there is not known.
+bool IsOverexposed(const BladeView& view, const VectorXd& light) {
+  constexpr int kWhite = 254;  // grey
+  return light.maxCoeff() >= static_cast<double>(view.scale().tone.linear[kWhite]);
+}
+
 // The light across part of a trace, and how much of it says something of the trace: a line that was
 // found is not to be seen again, nor the other blade.
 struct SeenPart {
@@ -191,7 +197,10 @@ std::vector<SeenPart> PartsSeen(const BladeView& view,
     const double inwards = OutsideBy(inner, middle) - kClearPx;
     const double outwards = OutsideBy(other, middle) - kClearPx;
     if (std::min(inwards, outwards) < kLeastBesidePx) continue;
-    seen.push_back({ProfileAcross(view, trace, part), TapsWithin(inwards, outwards)});
+    VectorXd light = ProfileAcross(view, trace, part);
+    const Taps taps = TapsWithin(inwards, outwards);
+    if (IsOverexposed(view, light.segment(taps.first, taps.Count()))) continue;
+    seen.push_back({std::move(light), taps});
   }
   return seen;
 }
