@@ -310,17 +310,23 @@ TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
   EXPECT_FALSE(IsFalseHead(slotted, tilt_known, clear));
 }
 
+ScaleResult TiltKnown() {
+  ScaleResult scale;
+  scale.sheet.emplace();
+  return scale;
+}
+
 // The left edge passes the pivot by 9 px less than the right one: so it would if its border were
 // the transition 9 px further out, or the right one's 9 px further in.
 TEST(DoubtUnlikeEdges, DoubtsTheEdgeWhoseOtherTransitionWouldMakeThemAlike) {
   const Pivot pivot = PivotSeen(-0.03);
   Blades upper = BladesWithRivals(9, 9);
-  DoubtUnlikeEdges(pivot, &upper);
+  DoubtUnlikeEdges(pivot, TiltKnown(), &upper);
   EXPECT_GT(upper.upper.edge.ambiguity, 0.5);
   EXPECT_GT(upper.upper.edge.common_sigma_px, 5);
   EXPECT_EQ(upper.lower.edge.ambiguity, 0);
   Blades lower = BladesWithRivals(-9, -9);
-  DoubtUnlikeEdges(pivot, &lower);
+  DoubtUnlikeEdges(pivot, TiltKnown(), &lower);
   EXPECT_EQ(lower.upper.edge.ambiguity, 0);
   EXPECT_GT(lower.lower.edge.ambiguity, 0.5);
 }
@@ -328,14 +334,28 @@ TEST(DoubtUnlikeEdges, DoubtsTheEdgeWhoseOtherTransitionWouldMakeThemAlike) {
 TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   for (const auto& [asymmetry, rival_px] : {std::pair(0.005, -9.0), std::pair(-0.08, 9.0)}) {
     Blades blades = BladesWithRivals(rival_px, 0);
-    DoubtUnlikeEdges(PivotSeen(asymmetry), &blades);
+    DoubtUnlikeEdges(PivotSeen(asymmetry), TiltKnown(), &blades);
     EXPECT_EQ(blades.upper.edge.ambiguity, 0) << asymmetry;
   }
   Blades unseen = BladesWithRivals(9, 0);
   Pivot pivot = PivotSeen(-0.03);
   pivot.source = "geometry";  // then it lies where the edges are alike
-  DoubtUnlikeEdges(pivot, &unseen);
+  DoubtUnlikeEdges(pivot, TiltKnown(), &unseen);
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
+}
+
+// Where markers tell the tilt, edges that are that unlike have been looked at again.
+TEST(DoubtUnlikeEdges, DoubtsWithoutMarkersWhatIsLessUnlike) {
+  const Pivot pivot = PivotSeen(-0.015);
+  Blades unknown = BladesWithRivals(4.5, 0), known = unknown;
+  Blades little_better = BladesWithRivals(1, 0);
+  DoubtUnlikeEdges(pivot, {}, &unknown);
+  EXPECT_GT(unknown.upper.edge.ambiguity, 0.5);
+  EXPECT_GT(unknown.upper.edge.common_sigma_px, 2.5);
+  DoubtUnlikeEdges(pivot, TiltKnown(), &known);
+  EXPECT_EQ(known.upper.edge.common_sigma_px, 0);
+  DoubtUnlikeEdges(pivot, {}, &little_better);
+  EXPECT_EQ(little_better.upper.edge.ambiguity, 0);
 }
 
 TEST(DoubtUnlikeEdges, DoubtsBothByATenthOfHowUnlikeTheyPass) {
@@ -343,11 +363,11 @@ TEST(DoubtUnlikeEdges, DoubtsBothByATenthOfHowUnlikeTheyPass) {
   const double off_px = kShare * kAsymmetry * kLength;
   Blades blades = BladesWithRivals(0, 0);
   blades.upper.edge.common_sigma_px = kKnownPx;
-  DoubtUnlikeEdges(PivotSeen(kAsymmetry), &blades);
+  DoubtUnlikeEdges(PivotSeen(kAsymmetry), TiltKnown(), &blades);
   EXPECT_NEAR(blades.upper.edge.common_sigma_px, std::hypot(kKnownPx, off_px), 0.05 * off_px);
   EXPECT_NEAR(blades.lower.edge.common_sigma_px, off_px, 0.05 * off_px);
   Blades alike = BladesWithRivals(0, 0);
-  DoubtUnlikeEdges(PivotSeen(0.01), &alike);
+  DoubtUnlikeEdges(PivotSeen(0.01), TiltKnown(), &alike);
   EXPECT_EQ(alike.upper.edge.common_sigma_px, 0);
 }
 

@@ -43,7 +43,7 @@ Opening OpeningOf(const Spoilt& spoilt) {
   Blades blades{StraightBlade(-60), StraightBlade(60)};
   for (LocatedBlade* blade : {&blades.upper, &blades.lower})
     blade->edge.common_sigma_px = spoilt.common_sigma_px;
-  DoubtUnlikeEnds(pivot, &blades);
+  DoubtUnlikeEnds(pivot, {}, &blades);
   return MeasureOpening(
       PlaneMap::Uniform(1, 0, "px"), std::nullopt, pivot, blades.upper, blades.lower);
 }

@@ -20,9 +20,11 @@ namespace {
 constexpr double kVaguePx = 1;  // common uncertainty
 
 // Whether the edges pass by a pivot that is seen or told so differently that one of them is in
-// doubt.
-bool PassUnlike(const Pivot& pivot) {
-  return pivot.source != "geometry" && AreUnlike(pivot.asymmetry);
+// doubt. In a view of known tilt edges by a screw that are less unlike have been looked at again.
+bool PassUnlike(const Pivot& pivot, const ScaleResult& scale) {
+  if (pivot.source == "geometry") return false;
+  const bool looked_at_again = scale.sheet || pivot.source != "screw";
+  return looked_at_again ? AreUnlike(pivot.asymmetry) : AreSuspect(pivot.asymmetry);
 }
 
 }  // namespace
@@ -69,15 +71,17 @@ double ByRivalPx(const LocatedBlade& blade) {
   return (blade.on_left ? 1 : -1) * blade.edge.rival_px;
 }
 
-void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades) {
+void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blades) {
   constexpr double kOff = 0.1;    // sigma, of how unlike they pass; over annotated photographs
   constexpr double kShare = 0.6;  // sigma, of the way to the other one
-  if (!PassUnlike(pivot)) return;
+  constexpr double kLeft = 0.5;   // of how unlike they pass
+  if (!PassUnlike(pivot, scale)) return;
   const double length_px = BladeLengthPx(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
     AddSigma(&edge, kOff * pivot.asymmetry * length_px);
-    if (!AreAlike(pivot.asymmetry + ByRivalPx(*blade) / length_px)) continue;
+    const double left = pivot.asymmetry + ByRivalPx(*blade) / length_px;
+    if (!AreAlike(left) || std::abs(left) > kLeft * std::abs(pivot.asymmetry)) continue;
     Doubt(&edge, kShare * edge.rival_px);
   }
 }
@@ -136,9 +140,9 @@ void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
     AddSigma(&blade->edge, kOfLength * BladeLengthPx(pivot, *blades));
 }
 
-void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades) {
+void DoubtUnlikeEnds(const Pivot& pivot, const ScaleResult& scale, Blades* blades) {
   constexpr double kOfDifference = 0.3;
-  if (!PassUnlike(pivot)) return;
+  if (!PassUnlike(pivot, scale)) return;
   const double turned_px =
       kOfDifference * std::abs(pivot.asymmetry) * BladeLengthPx(pivot, *blades) / std::sqrt(2.0);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower})

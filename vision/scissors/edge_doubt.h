@@ -36,10 +36,10 @@ void SetRival(LocatedEdge* edge, double rival_px);
 
 // Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
 // elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
-// would mirror each other if the other transition beside one of them were its border, that may well
-// be so (a bright bevel on a bright ground): such an edge becomes ambiguous, and less certain by
-// 0.6 of the way there.
-void DoubtUnlikeEdges(const Pivot& pivot, Blades* blades);
+// would mirror each other, or at least half as unlike, if the other transition beside one of them
+// were its border, that may well be so (a bright bevel on a bright ground): such an edge becomes
+// ambiguous, and less certain by 0.6 of the way there.
+void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blades);
 
 // A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
 // off the curve that the rest follows, by 0.3 % of its length, half a pixel and more than is known
@@ -64,6 +64,6 @@ void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades);
 // The distal ends of edges that pass although they are no mirror images: one of the edges is
 // something else's border, or the view is oblique. Either may turn the angle by as much as they
 // differ.
-void DoubtUnlikeEnds(const Pivot& pivot, Blades* blades);
+void DoubtUnlikeEnds(const Pivot& pivot, const ScaleResult& scale, Blades* blades);
 
 }  // namespace bladecurve

@@ -96,7 +96,7 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
   DoubtMovedEdges(view, pivot, blades);
   ConfirmMirroredEdges(view, pivot, blades);
   DoubtKinkedEdges(blades);
-  DoubtUnlikeEdges(pivot, blades);
+  DoubtUnlikeEdges(pivot, view.scale(), blades);
   DoubtSofterEdge(blades);
   DoubtUnseenBevel(view, blades);
   DoubtUnlikePrint(view.scale(), blades);
@@ -112,7 +112,7 @@ void SettleEnds(const BladeView& view, const Pivot& pivot, Blades* blades) {
   }
   RefuseClosed(pivot, *blades);
   KeepBeyondCrossing(blades);
-  DoubtUnlikeEnds(pivot, blades);
+  DoubtUnlikeEnds(pivot, view.scale(), blades);
 }
 
 Scissors LocateIn(const ScissorsView& seen, Scene scene, StageLog* log) {
