@@ -12,6 +12,7 @@
 #include "measured_blades.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {
@@ -414,6 +415,13 @@ TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   }
 }
 
+// Without a trace of the blades.
+cv::Mat BareSheet() {
+  SceneSpec bare = SceneWithMarkers();
+  bare.with_scissors = false;
+  return testing::Grained(RenderScene(bare).bgr);
+}
+
 // Two clear edges that differ by far more than the pivot is off: what lies within the border of a
 // bright blade is its bevel, though that looks like the ground. A dark blade may cast a shadow
 // instead, and the view's tilt may part the edges.
@@ -427,8 +435,7 @@ TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
       measured.Misplace(blade, blade == &upper ? -testing::kBevelPx : 0, contrast);
       Measured::MakeClear(blade);
     }
-    measured.photo = Measured::PhotoOf(testing::BrightenedAlongUpperEdge(
-        spec, 0, testing::kBevelPx, [](double, double) { return 0; }));
+    measured.photo = Measured::PhotoOf(BareSheet());
     if (!with_markers) measured.scale.sheet.reset();
     const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
     BorrowInnerOne(measured.View(), line, measured.pivot, &measured.blades);
@@ -567,12 +574,32 @@ TEST(RelocateUnlikeEdges, TakesNoClearEdgeAtWhichLightFallsToALineFurtherIn) {
   }
 }
 
-// An oblique view parts clear edges as well.
-TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepWithoutMarkers) {
-  Measured measured = WithMirroringBevelBelow();
-  Measured::MakeClear(&measured.blades.lower);
+// An oblique view parts clear edges as well, but puts no step where the other one has it.
+TEST(RelocateUnlikeEdges, DoubtsAClearEdgeForAFaintStepWithoutMarkers) {
+  constexpr double kSharePx = 0.4 * testing::kBevelPx, kOfBarePx = 1;
+  for (const bool bevel_is_seen : {true, false}) {
+    Measured measured = WithMirroringBevelBelow();
+    LocatedBlade& inner = measured.blades.lower;
+    Measured::MakeClear(&inner);
+    if (!bevel_is_seen) measured.photo = Measured::PhotoOf(BareSheet());
+    Relocate(&measured);
+    EXPECT_EQ(inner.moved, "");
+    EXPECT_EQ(IsClear(inner.edge), !bevel_is_seen);
+    if (bevel_is_seen) EXPECT_GT(inner.edge.common_sigma_px, kSharePx);
+    if (!bevel_is_seen) EXPECT_LT(inner.edge.common_sigma_px, kOfBarePx);
+  }
+}
+
+TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepInAViewOfKnownTilt) {
+  constexpr double kClosePx = 0.5;
+  const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
+  Measured::MakeClear(&measured.blades.upper);
+  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
   Relocate(&measured);
-  EXPECT_EQ(measured.blades.lower.moved, "");
+  EXPECT_NE(measured.blades.upper.moved, "");
+  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
 }
 
 // Where the other edge is clear and this one is not: a trace that strayed into a ragged shadow.

@@ -145,11 +145,9 @@ TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
 // Whether, beside an upper edge that is where it belongs, a line is taken that lies so far outwards
 // of its end, less nearer to the pivot, and is drawn along so much of the blade from the tip on, in
 // a picture brightened by so much.
-bool TakesLineBeside(double off_px, double share, bool clear, double brighter = 0) {
+bool TakesLineBeside(double off_px, double share, double brighter = 0) {
   constexpr double kDifferencePx = 6;
   Measured measured{SceneWithMarkers()};
-  Measured::MakeClear(&measured.blades.upper);
-  if (!clear) measured.blades.upper.edge.ambiguity = 0.6;
   const LocatedBlade& lower = measured.blades.lower;
   const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
   const Vector2d upper_end = measured.blades.upper.used.back().trend_px;
@@ -167,20 +165,17 @@ bool TakesLineBeside(double off_px, double share, bool clear, double brighter = 
 }
 
 TEST(FindMirroredTrace, TakesNoLineThatLeavesTheEdgesEnd) {
-  EXPECT_TRUE(TakesLineBeside(9, 1, false));
-  EXPECT_FALSE(TakesLineBeside(14, 1, false));
+  EXPECT_TRUE(TakesLineBeside(9, 1));
+  EXPECT_FALSE(TakesLineBeside(14, 1));
 }
 
 // White as the picture can store, light may do anything.
 TEST(FindMirroredTrace, TakesNoLineInOverexposedLight) {
   constexpr double kWhitens = 100;
-  EXPECT_FALSE(TakesLineBeside(9, 1, false, kWhitens));
+  EXPECT_FALSE(TakesLineBeside(9, 1, kWhitens));
 }
 
-TEST(FindMirroredTrace, LeavesNoClearEdge) {
-  EXPECT_TRUE(TakesLineBeside(9, 0.5, false));
-  EXPECT_FALSE(TakesLineBeside(9, 1, true));
-}
+TEST(FindMirroredTrace, NeedsNoneNearTheCrotch) { EXPECT_TRUE(TakesLineBeside(9, 0.5)); }
 
 }  // namespace
 }  // namespace bladecurve

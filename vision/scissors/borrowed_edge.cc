@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "vision/image/cross.h"
+#include "vision/image/robust_statistics.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
@@ -87,6 +88,28 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
                     Eigen::Rotation2Dd(0.5 * rad) * line.direction};
 }
 
+// About a head that may be none edges say nothing of each other, nor does one that is in doubt.
+bool MayMirror(const LocatedBlade& other, const Pivot& pivot) {
+  return !(pivot.screw && IsFaint(*pivot.screw)) && !IsDoubtful(other.edge);
+}
+
+// The other blade's mirror image where it is seen beyond `inner`. What hardly shows itself puts
+// nothing where a clear edge is to be left for it.
+std::optional<MirroredTrace> TraceBeyond(const MirroredBladeSearch& search,
+                                         const LocatedBlade& inner) {
+  const auto& [view, pivot, other, line] = search;
+  if (IsClear(inner.edge) && HardlyShowsBeside(other.edge, inner.edge)) return std::nullopt;
+  return FindMirroredTrace(view, inner, other, line, WayPx(search));
+}
+
+// How far the trace typically lies from an edge, of the length.
+double ShareApart(const MirroredTrace& trace,
+                  const LocatedBlade& blade,
+                  const LocatedBlade& other) {
+  const EdgeGap gap = GapFromMirrored(trace.line, blade, other);
+  return gap.along.empty() ? 0 : MedianAbsolute(gap.apart) / gap.along.back();
+}
+
 }  // namespace
 
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
@@ -112,18 +135,27 @@ void BorrowInnerOne(const BladeView& view,
                     const Pivot& pivot,
                     Blades* blades) {
   constexpr double kShare = 0.5;  // of the difference, standard
-  if (pivot.screw && IsFaint(*pivot.screw)) return;
-  if (!DifferBeyondPivot(pivot, *blades)) return;
   const auto [inner, other] = InnerOne(pivot, blades);
-  if (IsDoubtful(other.edge)) return;
+  if (!MayMirror(other, pivot) || !DifferBeyondPivot(pivot, *blades)) return;
+  const bool knows_mirror = KnowsMirror(view, pivot);
+  if (IsClear(inner.edge) && !knows_mirror) return;
   const MirroredBladeSearch search{view, pivot, other, line};
-  auto trace = FindMirroredTrace(view, inner, other, line, WayPx(search));
-  if (!trace && KnowsMirror(view, pivot) && MayBeLineOfBevel(inner, other, pivot))
+  auto trace = TraceBeyond(search, inner);
+  if (!trace && knows_mirror && MayBeLineOfBevel(inner, other, pivot))
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
+}
+
+void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kDoubt = 0.5;  // of the way
+  const auto [inner, other] = InnerOne(pivot, blades);
+  if (!MayMirror(other, pivot)) return;
+  const auto trace = TraceBeyond({view, pivot, other, LineBetween(view, pivot, *blades)}, inner);
+  if (trace)
+    Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
 }
 
 }  // namespace bladecurve

@@ -12,13 +12,18 @@ namespace bladecurve {
 // the inner one is replaced by the other's mirror image where that as a whole is seen, too faintly
 // to be located by itself: as good as the other edge, the pivot and the trace are, and marked as
 // doubtful. In a view of known tilt also where nothing is seen of it, if both blades are clearly
-// seen and brighter than the ground: half as far off as the edges differ, standard. Not where the
-// other edge is doubtful itself, nor where the pivot may account for the difference, nor about a
-// head that may be none: of that the edges say nothing.
+// seen and brighter than the ground: half as far off as the edges differ, standard. In one of
+// unknown tilt no clear edge is: that may part them, too. Not where the other edge is doubtful
+// itself or hardly shows, nor where the pivot may account for the difference, nor about a head that
+// may be none: of that the edges say nothing.
 void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades);
+
+// The inner one is doubted where the other's mirror image is seen like that, as beyond the line of
+// a bevel or at the end of a shadow: by half as much, standard, as the two lie apart.
+void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 // Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
 // mirror image of the other, if that is clear, displaced to where most of the doubtful one lies on

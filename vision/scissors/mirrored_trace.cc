@@ -266,7 +266,6 @@ std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
   constexpr double kOfDifference = 2, kNearestPx = 4;  // how far the trace's end may be off
   constexpr double kClearly = 2;                       // times the next best
   constexpr double kUsualBlurPx = 0.8;
-  if (IsClear(inner.edge)) return std::nullopt;
   const Support demand{8, 4};
   const double blur_px = std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3);  // and the pixel's box
   const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();

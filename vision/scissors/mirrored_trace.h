@@ -16,9 +16,9 @@ struct MirroredTrace {
   double sigma_px = 0;  // of the border, across it, from the line's direction
 };
 
-// Looks for the border outwards of where `inner`, a line on the blade, was found, unless that is
-// clear; the mirror's direction is taken from the two edges and hence off by as much as they
-// differ.
+// Looks for the border outwards of where `inner`, a line on the blade, was found; the mirror's
+// direction is taken from the two edges and hence off by as much as they differ. None is seen in
+// overexposed light.
 [[nodiscard]] std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
                                                              const LocatedBlade& inner,
                                                              const LocatedBlade& other,
