@@ -590,6 +590,27 @@ TEST(RelocateUnlikeEdges, DoubtsAClearEdgeForAFaintStepWithoutMarkers) {
   }
 }
 
+// Of a bevel that is dark near the crotch and mirrors the ground towards the tip a line within
+// shows better there than its border.
+TEST(RelocateUnlikeEdges, TakesTheBorderAsAWholeWhereWhatIsSeenThereStrays) {
+  constexpr double kClosePx = 1.5, kDark = -25, kFaint = -3;
+  constexpr double kDarkUntil = 0.6, kLinePx = 5;
+  const SceneSpec spec = SceneWithMarkers();
+  Measured measured{spec};
+  LocatedBlade& upper = measured.blades.upper;
+  measured.Misplace(&upper, -testing::kBevelPx);
+  const auto light = [](double depth, double share) {
+    return share < kDarkUntil || depth > kLinePx ? kDark : kFaint;
+  };
+  measured.photo = Measured::PhotoOf(
+      testing::Grained(testing::BrightenedAlongUpperEdge(spec, 0, testing::kBevelPx, light)));
+  Relocate(&measured);
+  EXPECT_NE(upper.moved, "");
+  const auto rest = static_cast<std::ptrdiff_t>(upper.used.size() / 3);
+  const std::vector<LocatedEdgePoint> distal(upper.used.end() - rest, upper.used.end());
+  EXPECT_LT(FarFrom(measured.truth.upper, distal), kClosePx);
+}
+
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepInAViewOfKnownTilt) {
   constexpr double kClosePx = 0.5;
   const SceneSpec spec = SceneWithMarkers();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "vision/edge/edge_curve.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
@@ -90,8 +91,17 @@ void RelocateDoubtfulOne(const BladeView& view,
   Replace(*found, kWhereMirrored, &doubtful);
 }
 
-// Edges that do not mirror each other: the one that is better seen where the other puts it. A clear
-// edge is not left for where a doubtful one puts it. Else the doubtful one.
+// Whether a twentieth and more of an edge is far off the smooth curve that the rest follows.
+bool Strays(const LocatedBlade& blade) {
+  constexpr double kMost = 0.95;  // of the places
+  constexpr double kFar = 0.006;  // of the length
+  const double length_px = (blade.used.back().trend_px - blade.used.front().trend_px).norm();
+  return OffPlainCurve(blade.used, kMost) > kFar * length_px;
+}
+
+// Edges that do not mirror each other: the one that is better seen where the other puts it, or, if
+// what is seen there strays, its border as a whole. A clear edge is not left for where a doubtful
+// one puts it. Else the doubtful one.
 void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, pivot, *blades);
   const std::optional<RelocatedBlade> upper = LookWhereMirrored({view, pivot, blades->lower, line});
@@ -108,9 +118,10 @@ void RelocateClearerOne(const BladeView& view, const Pivot& pivot, Blades* blade
   const bool upper_better = is_better(upper, true, !lower);
   const bool lower_better = is_better(lower, false, !upper);
   if (upper_better != lower_better) {
-    Replace(upper_better ? *upper : *lower,
-            kWhereMirrored,
-            upper_better ? &blades->upper : &blades->lower);
+    const RelocatedBlade& found = upper_better ? *upper : *lower;
+    if (Strays(found.blade)) BorrowInnerOne(view, line, pivot, blades);
+    if (NoneMoved(*blades))
+      Replace(found, kWhereMirrored, upper_better ? &blades->upper : &blades->lower);
     return;
   }
   if (!upper_better) BorrowInnerOne(view, line, pivot, blades);
