@@ -344,18 +344,22 @@ TEST(DoubtUnlikeEdges, LeavesEdgesThatAreAlikeOrThatNothingWouldMakeSo) {
   EXPECT_EQ(unseen.upper.edge.ambiguity, 0);
 }
 
-// Where markers tell the tilt, edges that are that unlike have been looked at again.
-TEST(DoubtUnlikeEdges, DoubtsWithoutMarkersWhatIsLessUnlike) {
-  const Pivot pivot = PivotSeen(-0.015);
-  Blades unknown = BladesWithRivals(4.5, 0), known = unknown;
-  Blades little_better = BladesWithRivals(1, 0);
-  DoubtUnlikeEdges(pivot, {}, &unknown);
-  EXPECT_GT(unknown.upper.edge.ambiguity, 0.5);
-  EXPECT_GT(unknown.upper.edge.common_sigma_px, 2.5);
-  DoubtUnlikeEdges(pivot, TiltKnown(), &known);
-  EXPECT_EQ(known.upper.edge.common_sigma_px, 0);
-  DoubtUnlikeEdges(pivot, {}, &little_better);
-  EXPECT_EQ(little_better.upper.edge.ambiguity, 0);
+// Edges that are unlike by less are doubted where they may be, with markers if the pivot accounts
+// for no half of it.
+TEST(DoubtUnlikeEdges, DoubtsWhatIsLessUnlikeUnlessThePivotAccountsForIt) {
+  constexpr double kSurePx = 0.5, kVaguePx = 1.5;
+  const auto doubted = [](const ScaleResult& scale, double pivot_sigma_px, double rival_px) {
+    Pivot pivot = PivotSeen(-0.015);  // 4.5 px
+    pivot.covariance_px2 *= pivot_sigma_px * pivot_sigma_px;
+    Blades blades = BladesWithRivals(rival_px, 0);
+    DoubtUnlikeEdges(pivot, scale, &blades);
+    EXPECT_EQ(blades.upper.edge.ambiguity > 0.5, blades.upper.edge.common_sigma_px > 2.5);
+    return blades.upper.edge.ambiguity > 0.5;
+  };
+  EXPECT_TRUE(doubted({}, kVaguePx, 4.5));
+  EXPECT_FALSE(doubted({}, kVaguePx, 1)) << "the rival would hardly make them more alike";
+  EXPECT_TRUE(doubted(TiltKnown(), kSurePx, 4.5));
+  EXPECT_FALSE(doubted(TiltKnown(), kVaguePx, 4.5));
 }
 
 TEST(DoubtUnlikeEdges, DoubtsBothByATenthOfHowUnlikeTheyPass) {

@@ -20,11 +20,14 @@ namespace {
 constexpr double kVaguePx = 1;  // common uncertainty
 
 // Whether the edges pass by a pivot that is seen or told so differently that one of them is in
-// doubt. In a view of known tilt edges by a screw that are less unlike have been looked at again.
-bool PassUnlike(const Pivot& pivot, const ScaleResult& scale) {
+// doubt. What the pivot's uncertainty accounts for is none: about a screw it is known by itself.
+bool PassUnlike(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
+  constexpr double kSigmas = 2;
   if (pivot.source == "geometry") return false;
-  const bool looked_at_again = scale.sheet || pivot.source != "screw";
-  return looked_at_again ? AreUnlike(pivot.asymmetry) : AreSuspect(pivot.asymmetry);
+  if (pivot.source != "screw" || AreUnlike(pivot.asymmetry)) return AreUnlike(pivot.asymmetry);
+  const double off_px = std::abs(pivot.asymmetry) * BladeLengthPx(pivot, blades);
+  return AreSuspect(pivot.asymmetry) &&
+         (!scale.sheet || off_px > kSigmas * PartedByPivotPx(pivot, blades));
 }
 
 }  // namespace
@@ -75,7 +78,7 @@ void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blad
   constexpr double kOff = 0.1;    // sigma, of how unlike they pass; over annotated photographs
   constexpr double kShare = 0.6;  // sigma, of the way to the other one
   constexpr double kLeft = 0.5;   // of how unlike they pass
-  if (!PassUnlike(pivot, scale)) return;
+  if (!PassUnlike(pivot, scale, *blades)) return;
   const double length_px = BladeLengthPx(pivot, *blades);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower}) {
     LocatedEdge& edge = blade->edge;
@@ -142,7 +145,7 @@ void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
 
 void DoubtUnlikeEnds(const Pivot& pivot, const ScaleResult& scale, Blades* blades) {
   constexpr double kOfDifference = 0.3;
-  if (!PassUnlike(pivot, scale)) return;
+  if (!PassUnlike(pivot, scale, *blades)) return;
   const double turned_px =
       kOfDifference * std::abs(pivot.asymmetry) * BladeLengthPx(pivot, *blades) / std::sqrt(2.0);
   for (LocatedBlade* blade : {&blades->upper, &blades->lower})

@@ -36,9 +36,10 @@ void SetRival(LocatedEdge* edge, double rival_px);
 
 // Blades mirror each other. Where the edges do not, the view may be oblique or either edge may lie
 // elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
-// would mirror each other, or at least half as unlike, if the other transition beside one of them
-// were its border, that may well be so (a bright bevel on a bright ground): such an edge becomes
-// ambiguous, and less certain by 0.6 of the way there.
+// would pass it alike, and half as unlike at most, if the other transition beside one of them were
+// its border, that may well be so (a bright bevel on a bright ground): such an edge becomes
+// ambiguous, and less certain by 0.6 of the way there. Neither where the pivot may account for it,
+// if markers tell the tilt of the view.
 void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blades);
 
 // A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
