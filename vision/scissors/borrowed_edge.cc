@@ -150,9 +150,10 @@ void BorrowInnerOne(const BladeView& view,
 }
 
 void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kDoubt = 0.5;  // of the way
+  constexpr double kWidest = 0.06;  // of the length, of bevels
+  constexpr double kDoubt = 0.5;    // of the way
   const auto [inner, other] = InnerOne(pivot, blades);
-  if (!MayMirror(other, pivot)) return;
+  if (!MayMirror(other, pivot) || std::abs(pivot.asymmetry) > kWidest) return;
   const auto trace = TraceBeyond({view, pivot, other, LineBetween(view, pivot, *blades)}, inner);
   if (trace)
     Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));

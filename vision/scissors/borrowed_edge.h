@@ -22,7 +22,8 @@ void BorrowInnerOne(const BladeView& view,
                     Blades* blades);
 
 // The inner one is doubted where the other's mirror image is seen like that, as beyond the line of
-// a bevel or at the end of a shadow: by half as much, standard, as the two lie apart.
+// a bevel or at the end of a shadow: by half as much, standard, as the two lie apart. Not where
+// that is further than bevels are wide.
 void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 // Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
