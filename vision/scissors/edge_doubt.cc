@@ -20,7 +20,8 @@ namespace {
 constexpr double kVaguePx = 1;  // common uncertainty
 
 // Whether the edges pass by a pivot that is seen or told so differently that one of them is in
-// doubt. What the pivot's uncertainty accounts for is none: about a screw it is known by itself.
+// doubt. Of what is less unlike than blades may be, about a screw, the pivot's uncertainty must
+// leave some unexplained where markers tell the tilt of the view.
 bool PassUnlike(const Pivot& pivot, const ScaleResult& scale, const Blades& blades) {
   constexpr double kSigmas = 2;
   if (pivot.source == "geometry") return false;

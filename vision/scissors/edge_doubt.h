@@ -38,8 +38,8 @@ void SetRival(LocatedEdge* edge, double rival_px);
 // elsewhere: both become less certain by a tenth of how unlike they pass the pivot. Where they
 // would pass it alike, and half as unlike at most, if the other transition beside one of them were
 // its border, that may well be so (a bright bevel on a bright ground): such an edge becomes
-// ambiguous, and less certain by 0.6 of the way there. Neither where the pivot may account for it,
-// if markers tell the tilt of the view.
+// ambiguous, and less certain by 0.6 of the way there. Neither where they differ by less than 1.8 %
+// of the length and markers tell the tilt of the view, if the pivot may account for it.
 void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blades);
 
 // A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
