@@ -17,6 +17,12 @@ namespace {
 
 constexpr double kLength = 300;  // px, pivot to tips
 
+ScaleResult TiltKnown() {
+  ScaleResult scale;
+  scale.sheet.emplace();
+  return scale;
+}
+
 Pivot PivotSeen(double asymmetry) {
   Pivot pivot;
   pivot.point_px.setZero();
@@ -149,8 +155,7 @@ TEST(RefuseContestedHead, SpeaksUpWhereAFaintHeadLiesFarFromWhereTheBladesPutThe
 }
 
 TEST(RefuseContestedHead, LeavesOneAboutWhichEdgesSeenFromAKnownSideMirrorEachOther) {
-  ScaleResult tilt_known;
-  tilt_known.sheet.emplace();
+  const ScaleResult tilt_known = TiltKnown();
   Pivot pivot = PivotSeen(0.005);
   pivot.off_geometry = 4;
   pivot.screw.emplace().evidence = 5;
@@ -208,8 +213,7 @@ TEST(RefuseUnconfirmedScene, NeedsAPivotThatIsSeenAboutWhichTheEdgesMirrorEachOt
   EXPECT_EQ(reason(doubtful), Reason::kLowContrast);
   EXPECT_THROW(RefuseUnconfirmedScene(doubtful, {}, PivotSeen(-0.1)), Refused);
   EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, {}, PivotSeen(-0.05)));
-  ScaleResult tilt_known;
-  tilt_known.sheet.emplace();
+  const ScaleResult tilt_known = TiltKnown();
   EXPECT_THROW(RefuseUnconfirmedScene(doubtful, tilt_known, PivotSeen(-0.05)), Refused);
   EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, tilt_known, PivotSeen(-0.01)));
   EXPECT_THROW(RefuseUnconfirmedScene(outlined, {}, inferred), Refused);
@@ -268,8 +272,7 @@ TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
 }
 
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
-  ScaleResult tilt_known, tilt_unknown;
-  tilt_known.sheet.emplace();
+  const ScaleResult tilt_known = TiltKnown(), tilt_unknown;
   const Blades blades = BladesWithRivals(0, 0);
   const Pivot unlike = PivotSeen(0.05);
   EXPECT_THROW(RefuseUnlikeEdges(unlike, tilt_known, blades), Refused);
@@ -284,8 +287,7 @@ TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {
 }
 
 TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
-  ScaleResult tilt_known, tilt_unknown;
-  tilt_known.sheet.emplace();
+  const ScaleResult tilt_known = TiltKnown(), tilt_unknown;
   const Blades clear = BladesWithRivals(0, 0);
   Pivot faint = PivotSeen(0.05);
   faint.screw.emplace();
@@ -308,12 +310,6 @@ TEST(IsFalseHead, AFaintOneAboutWhichClearEdgesAreNoMirrorImages) {
   Pivot slotted = faint;
   slotted.screw->slot.emplace();
   EXPECT_FALSE(IsFalseHead(slotted, tilt_known, clear));
-}
-
-ScaleResult TiltKnown() {
-  ScaleResult scale;
-  scale.sheet.emplace();
-  return scale;
 }
 
 // The left edge passes the pivot by 9 px less than the right one: so it would if its border were

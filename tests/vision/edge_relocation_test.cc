@@ -375,6 +375,10 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
+std::vector<LocatedEdgePoint> DistalThird(const LocatedBlade& blade) {
+  return {blade.used.end() - static_cast<std::ptrdiff_t>(blade.used.size() / 3), blade.used.end()};
+}
+
 // As the edge of a bevel that fades into a shadow towards the tip.
 TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStraysIntoTheBlade) {
   constexpr double kClosePx = 0.3, kDoubt = 0.9, kFaint = 0.4;
@@ -390,9 +394,7 @@ TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStraysIntoTheBla
     stray.edge.ambiguity = doubt;
     stray.edge.common_sigma_px = 0.1;
     const bool moved = BorrowDoubtfulOne(measured.View(), measured.pivot, &measured.blades);
-    const auto rest = static_cast<std::ptrdiff_t>(stray.used.size() / 3);
-    const std::vector<LocatedEdgePoint> distal(stray.used.end() - rest, stray.used.end());
-    EXPECT_EQ(moved, FarFrom(measured.TrueEdge(upper), distal) < kClosePx);
+    EXPECT_EQ(moved, FarFrom(measured.TrueEdge(upper), DistalThird(stray)) < kClosePx);
     EXPECT_EQ(moved, !stray.moved.empty());
     return moved;
   };
@@ -415,13 +417,6 @@ TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   }
 }
 
-// Without a trace of the blades.
-cv::Mat BareSheet() {
-  SceneSpec bare = SceneWithMarkers();
-  bare.with_scissors = false;
-  return testing::Grained(RenderScene(bare).bgr);
-}
-
 // Two clear edges that differ by far more than the pivot is off: what lies within the border of a
 // bright blade is its bevel, though that looks like the ground. A dark blade may cast a shadow
 // instead, and the view's tilt may part the edges.
@@ -435,7 +430,7 @@ TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
       measured.Misplace(blade, blade == &upper ? -testing::kBevelPx : 0, contrast);
       Measured::MakeClear(blade);
     }
-    measured.photo = Measured::PhotoOf(BareSheet());
+    measured.photo = Measured::PhotoOf(testing::Grained(testing::BareSheet()));
     if (!with_markers) measured.scale.sheet.reset();
     const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
     BorrowInnerOne(measured.View(), line, measured.pivot, &measured.blades);
@@ -581,7 +576,7 @@ TEST(RelocateUnlikeEdges, DoubtsAClearEdgeForAFaintStepWithoutMarkers) {
     Measured measured = WithMirroringBevelBelow();
     LocatedBlade& inner = measured.blades.lower;
     Measured::MakeClear(&inner);
-    if (!bevel_is_seen) measured.photo = Measured::PhotoOf(BareSheet());
+    if (!bevel_is_seen) measured.photo = Measured::PhotoOf(testing::Grained(testing::BareSheet()));
     Relocate(&measured);
     EXPECT_EQ(inner.moved, "");
     EXPECT_EQ(IsClear(inner.edge), !bevel_is_seen);
@@ -605,9 +600,7 @@ TEST(RelocateUnlikeEdges, TakesTheBorderAsAWholeWhereWhatIsSeenThereStrays) {
       testing::Grained(testing::BrightenedAlongUpperEdge(spec, 0, testing::kBevelPx, light)));
   Relocate(&measured);
   EXPECT_NE(upper.moved, "");
-  const auto rest = static_cast<std::ptrdiff_t>(upper.used.size() / 3);
-  const std::vector<LocatedEdgePoint> distal(upper.used.end() - rest, upper.used.end());
-  EXPECT_LT(FarFrom(measured.truth.upper, distal), kClosePx);
+  EXPECT_LT(FarFrom(measured.truth.upper, DistalThird(upper)), kClosePx);
 }
 
 TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepInAViewOfKnownTilt) {

@@ -42,6 +42,13 @@ inline SceneSpec SceneWithMarkers() {
   return spec;
 }
 
+// The same without a trace of the scissors.
+inline cv::Mat BareSheet() {
+  SceneSpec bare = SceneWithMarkers();
+  bare.with_scissors = false;
+  return RenderScene(bare).bgr;
+}
+
 // A lamp that throws the lower blade's shadow into the gap between the blades.
 inline SceneSpec SceneWithShadow(double elevation_rad, double direction_rad, double blur_mm) {
   SceneSpec spec = SceneWithMarkers();

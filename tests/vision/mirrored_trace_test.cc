@@ -17,6 +17,7 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+using testing::BareSheet;
 using testing::BrightenedAlongUpperEdge;
 using testing::FarFrom;
 using testing::Grained;
@@ -77,12 +78,6 @@ TEST(FindMirroredTrace, FindsTheBorderOfANarrowBevel) {
       FindIn(spec, Grained(BrightenedAlongUpperEdge(spec, 0, kNarrowPx, light)), kNarrowPx);
   EXPECT_TRUE(found.any);
   EXPECT_LT(found.off_px, kClosePx);
-}
-
-cv::Mat BareSheet() {
-  SceneSpec bare = SceneWithMarkers();
-  bare.with_scissors = false;
-  return RenderScene(bare).bgr;
 }
 
 TEST(FindMirroredTrace, FindsNoneOnABareSheet) {

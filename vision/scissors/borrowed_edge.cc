@@ -11,6 +11,7 @@
 #include "vision/image/robust_statistics.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
+#include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"

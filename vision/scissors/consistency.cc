@@ -87,6 +87,11 @@ double PartedByPivotPx(const Pivot& pivot, const Blades& blades) {
   return 2 * std::sqrt(across.dot(pivot.covariance_px2 * across));
 }
 
+bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades, double sigmas) {
+  return std::abs(pivot.asymmetry) * BladeLengthPx(pivot, blades) >
+         sigmas * PartedByPivotPx(pivot, blades);
+}
+
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades) {
   RefuseOutOfPlane(pivot, blades);
   RefuseJaws(pivot, blades);

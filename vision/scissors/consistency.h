@@ -16,6 +16,9 @@ namespace bladecurve {
 // the blades, that adds to the distance at which one passes it and takes as much from the other's.
 [[nodiscard]] double PartedByPivotPx(const Pivot& pivot, const Blades& blades);
 
+// Whether the edges differ by more than that, in standard uncertainties.
+[[nodiscard]] bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades, double sigmas = 3);
+
 // Throws Refused where edges and pivot cannot be those of flat scissors: kOutOfPlane for angled
 // blades, kNotScissors for jaws that meet instead of crossing, kAmbiguousPivot where neither a
 // screw nor the blades tell where they turn.

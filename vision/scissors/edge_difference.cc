@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/edge_difference.h"
 
-#include <cmath>
-
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_doubt.h"
@@ -24,12 +22,6 @@ double AsymmetryOf(const BladeView& view,
 
 double ShareInPx(double share, const Pivot& pivot, const Blades& blades) {
   return share * BladeLengthPx(pivot, blades);
-}
-
-bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades) {
-  constexpr double kSigmas = 3;
-  return ShareInPx(std::abs(pivot.asymmetry), pivot, blades) >
-         kSigmas * PartedByPivotPx(pivot, blades);
 }
 
 bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot) {

@@ -24,9 +24,6 @@ struct ChosenBlade {
 // A share of the blades' length, px.
 [[nodiscard]] double ShareInPx(double share, const Pivot& pivot, const Blades& blades);
 
-// Whether the edges differ by more than a pivot that lies a little aside makes them.
-[[nodiscard]] bool DifferBeyondPivot(const Pivot& pivot, const Blades& blades);
-
 // Whether it is the other blade's mirror image that lies further out.
 [[nodiscard]] bool LiesInwards(const LocatedBlade& blade, const Pivot& pivot);
 

@@ -26,9 +26,7 @@ bool PassUnlike(const Pivot& pivot, const ScaleResult& scale, const Blades& blad
   constexpr double kSigmas = 2;
   if (pivot.source == "geometry") return false;
   if (pivot.source != "screw" || AreUnlike(pivot.asymmetry)) return AreUnlike(pivot.asymmetry);
-  const double off_px = std::abs(pivot.asymmetry) * BladeLengthPx(pivot, blades);
-  return AreSuspect(pivot.asymmetry) &&
-         (!scale.sheet || off_px > kSigmas * PartedByPivotPx(pivot, blades));
+  return AreSuspect(pivot.asymmetry) && (!scale.sheet || DifferBeyondPivot(pivot, blades, kSigmas));
 }
 
 }  // namespace
@@ -90,16 +88,21 @@ void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blad
   }
 }
 
+Kink KinkOf(const LocatedBlade& blade) {
+  constexpr double kMost = 0.95;  // of the places
+  return {OffPlainCurve(blade.used, kMost),
+          (blade.used.back().trend_px - blade.used.front().trend_px).norm()};
+}
+
 void DoubtKinkedEdges(Blades* blades) {
   constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
-  constexpr double kLeastPx = 0.5, kTimes = 2, kMost = 0.95;
+  constexpr double kLeastPx = 0.5, kTimes = 2;
   const std::array<LocatedBlade*, 2> both{&blades->upper, &blades->lower};
-  const std::vector<double> kinks_px = ParallelMap(
-      2, [&](int i) { return OffPlainCurve(both[static_cast<std::size_t>(i)]->used, kMost); });
+  const std::vector<Kink> kinks =
+      ParallelMap(2, [&](int i) { return KinkOf(*both[static_cast<std::size_t>(i)]); });
   for (std::size_t i = 0; i < both.size(); ++i) {
     LocatedBlade* const blade = both[i];
-    const double kink_px = kinks_px[i];
-    const double length_px = (blade->used.back().trend_px - blade->used.front().trend_px).norm();
+    const auto& [kink_px, length_px] = kinks[i];
     if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
       throw Refused(Reason::kLowContrast,
                     "edges: the upper cutting edge leaves a blade's smooth course by " +

@@ -42,10 +42,16 @@ void SetRival(LocatedEdge* edge, double rival_px);
 // of the length and markers tell the tilt of the view, if the pivot may account for it.
 void DoubtUnlikeEdges(const Pivot& pivot, const ScaleResult& scale, Blades* blades);
 
-// A cutting edge is ground as one smooth curve. Where a twentieth and more of what was located is
-// off the curve that the rest follows, by 0.3 % of its length, half a pixel and more than is known
-// of it, another line was followed part of the way: the edge becomes ambiguous, and less certain by
-// twice as much. Throws Refused{kLowContrast} where the upper edge is off by 2 %.
+// A cutting edge is ground as one smooth curve. By how much a twentieth and more of what was
+// located is off the curve that the rest follows, and how long the edge is. px
+struct Kink {
+  double off_px = 0, length_px = 0;
+};
+[[nodiscard]] Kink KinkOf(const LocatedBlade& blade);
+
+// Where that is 0.3 % of the length, half a pixel and more than is known of the edge, another line
+// was followed part of the way: the edge becomes ambiguous, and less certain by twice as much.
+// Throws Refused{kLowContrast} where the upper edge is off by 2 %.
 void DoubtKinkedEdges(Blades* blades);
 
 // Both edges lie about as far from the lens. One that looks softer than the other has another step

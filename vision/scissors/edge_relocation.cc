@@ -6,7 +6,6 @@
 #include <cmath>
 #include <optional>
 
-#include "vision/edge/edge_curve.h"
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
@@ -91,12 +90,11 @@ void RelocateDoubtfulOne(const BladeView& view,
   Replace(*found, kWhereMirrored, &doubtful);
 }
 
-// Whether a twentieth and more of an edge is far off the smooth curve that the rest follows.
+// Whether an edge is far off the smooth course of its most part.
 bool Strays(const LocatedBlade& blade) {
-  constexpr double kMost = 0.95;  // of the places
   constexpr double kFar = 0.006;  // of the length
-  const double length_px = (blade.used.back().trend_px - blade.used.front().trend_px).norm();
-  return OffPlainCurve(blade.used, kMost) > kFar * length_px;
+  const Kink kink = KinkOf(blade);
+  return kink.off_px > kFar * kink.length_px;
 }
 
 // Edges that do not mirror each other: the one that is better seen where the other puts it, or, if
