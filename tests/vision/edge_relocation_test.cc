@@ -356,12 +356,28 @@ TEST(RelocateUnlikeEdges, TakesNothingThatIsBrighterThanTheGroundForItsShadow) {
   EXPECT_EQ(measured.blades.lower.moved, "");
 }
 
-// Beside the blade at the truth's upper edge, which is measured as the lower one.
-Measured WithMirroringBevelBelow() {
-  const SceneSpec spec = SceneWithMarkers();
+// Where the blades cross, as the scene without a bevel shows it.
+void RestoreCrotch(const Measured& measured, const SceneSpec& spec, cv::Mat* picture) {
+  constexpr int kAboutPx = 40;
+  const Vector2d crotch = measured.blades.lower.used.front().trend_px;
+  const cv::Rect about(static_cast<int>(crotch.x()) - kAboutPx,
+                       static_cast<int>(crotch.y()) - kAboutPx,
+                       2 * kAboutPx,
+                       2 * kAboutPx);
+  RenderScene(spec).bgr(about).copyTo((*picture)(about));
+}
+
+// Beside the blade at the truth's upper edge, which is measured as the lower one: over the other
+// blade, or, which hides no edge, beneath it.
+enum class Bevelled { kOver, kBeneath };
+Measured WithMirroringBevelBelow(Bevelled blade) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.upper_on_top = blade == Bevelled::kOver;
   Measured measured{spec};
+  cv::Mat picture = testing::WithMirroringBevel(spec);
+  if (blade == Bevelled::kBeneath) RestoreCrotch(measured, spec, &picture);
   measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
-  measured.photo = Measured::PhotoOf(testing::WithMirroringBevel(spec));
+  measured.photo = Measured::PhotoOf(picture);
   measured.scale.sheet.reset();
   measured.TurnOver();
   return measured;
@@ -369,7 +385,7 @@ Measured WithMirroringBevelBelow() {
 
 TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMarkers) {
   constexpr double kClosePx = 0.5, kWarned = 0.5;
-  Measured measured = WithMirroringBevelBelow();
+  Measured measured = WithMirroringBevelBelow(Bevelled::kOver);
   Relocate(&measured);
   EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.lower.used), kClosePx);
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
@@ -409,7 +425,7 @@ TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStraysIntoTheBla
 
 TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   for (const bool doubtful : {false, true}) {
-    Measured measured = WithMirroringBevelBelow();
+    Measured measured = WithMirroringBevelBelow(Bevelled::kOver);
     if (doubtful) measured.blades.upper.edge.ambiguity = 1;
     const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
     BorrowInnerOne(measured.View(), line, measured.pivot, &measured.blades);
@@ -456,18 +472,26 @@ TEST(RelocateUnlikeEdges, FindsTheUpperEdgeFurtherOutWithoutMarkers) {
   EXPECT_GT(measured.blades.upper.edge.common_sigma_px, kDoubtPx);
 }
 
-// The curve that is told of the blade is not the other one's.
+// The curve that is told of the blade is not the other one's, unless it is seen to end further out
+// than it was found.
 TEST(RelocateUnlikeEdges, TakesNoFaintStepForTheUpperEdgeWithoutMarkers) {
-  Measured measured = WithMirroringBevelBelow();
-  measured.TurnOver();
-  Relocate(&measured);
-  EXPECT_EQ(measured.blades.upper.moved, "");
+  constexpr double kClosePx = 0.5;
+  for (const Bevelled blade : {Bevelled::kOver, Bevelled::kBeneath}) {
+    Measured measured = WithMirroringBevelBelow(blade);
+    measured.TurnOver();
+    Relocate(&measured);
+    const LocatedBlade& upper = measured.blades.upper;
+    EXPECT_EQ(upper.moved.empty(), blade == Bevelled::kBeneath);
+    if (!upper.moved.empty()) {
+      EXPECT_LT(FarFrom(measured.truth.upper, upper.used), kClosePx);
+    }
+  }
 }
 
 // What parts them may be the pivot then.
 TEST(RelocateUnlikeEdges, TakesNoFaintStepForEdgesThatDifferByLessThanThePivotIsSure) {
   constexpr double kVaguePx = 10;
-  Measured measured = WithMirroringBevelBelow();
+  Measured measured = WithMirroringBevelBelow(Bevelled::kBeneath);
   measured.pivot.covariance_px2 *= kVaguePx * kVaguePx;
   Relocate(&measured);
   EXPECT_EQ(measured.blades.lower.moved, "");
@@ -569,11 +593,22 @@ TEST(RelocateUnlikeEdges, TakesNoClearEdgeAtWhichLightFallsToALineFurtherIn) {
   }
 }
 
+// No shadow hides the edge of the blade beneath, nor does an oblique view.
+TEST(RelocateUnlikeEdges, LeavesAClearEdgeForAFaintStepThatHidesTheOtherOneWithoutMarkers) {
+  constexpr double kClosePx = 0.5, kWarned = 0.5;
+  Measured measured = WithMirroringBevelBelow(Bevelled::kOver);
+  LocatedBlade& inner = measured.blades.lower;
+  Measured::MakeClear(&inner);
+  Relocate(&measured);
+  EXPECT_LT(FarFrom(measured.truth.upper, inner.used), kClosePx);
+  EXPECT_GT(inner.edge.ambiguity, kWarned);
+}
+
 // An oblique view parts clear edges as well, but puts no step where the other one has it.
 TEST(RelocateUnlikeEdges, DoubtsAClearEdgeForAFaintStepWithoutMarkers) {
   constexpr double kSharePx = 0.4 * testing::kBevelPx;
   for (const bool bevel_is_seen : {true, false}) {
-    Measured measured = WithMirroringBevelBelow();
+    Measured measured = WithMirroringBevelBelow(Bevelled::kBeneath);
     LocatedBlade& inner = measured.blades.lower;
     Measured::MakeClear(&inner);
     if (!bevel_is_seen) measured.photo = Measured::PhotoOf(testing::Grained(testing::BareSheet()));

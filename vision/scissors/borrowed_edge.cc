@@ -16,11 +16,15 @@
 #include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"
 #include "vision/scissors/mirrored_trace.h"
+#include "vision/scissors/occluding_border.h"
 
 namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
+
+constexpr double kShare = 0.5;         // of the difference, standard
+constexpr double kWidestBevel = 0.06;  // of the length
 
 // The other blade's edge, mirrored.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
@@ -135,7 +139,6 @@ void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades) {
-  constexpr double kShare = 0.5;  // of the difference, standard
   const auto [inner, other] = InnerOne(pivot, blades);
   if (!MayMirror(other, pivot) || !DifferBeyondPivot(pivot, *blades)) return;
   const bool knows_mirror = KnowsMirror(view, pivot);
@@ -150,14 +153,29 @@ void BorrowInnerOne(const BladeView& view,
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
 
-void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kWidest = 0.06;  // of the length, of bevels
-  constexpr double kDoubt = 0.5;    // of the way
+void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kDoubt = 0.5;  // of the way
+  constexpr double kSeen = 0.6;   // ambiguity
+  constexpr const char* kWhere = "up to where it hides the other one";
   const auto [inner, other] = InnerOne(pivot, blades);
-  if (!MayMirror(other, pivot) || std::abs(pivot.asymmetry) > kWidest) return;
-  const auto trace = TraceBeyond({view, pivot, other, LineBetween(view, pivot, *blades)}, inner);
-  if (trace)
-    Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
+  if (!MayMirror(other, pivot) || std::abs(pivot.asymmetry) > kWidestBevel) return;
+  const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
+  const auto trace = TraceBeyond(search, inner);
+  const MirroredTrace by_end{LineBetweenEnds(view, pivot, *blades), kShare * WayPx(search)};
+  const LocatedEdge border = Borrowed(other, trace.value_or(by_end), pivot);
+  if (!IsOccludingBorder(view, border.points, inner, other)) {
+    if (trace)
+      Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
+    return;
+  }
+  const auto seen = LookWhereMirrored(search);
+  if (seen && seen->blade.edge.ambiguity <= kSeen &&
+      IsOccludingBorder(view, seen->blade.used, inner, other)) {
+    Replace(*seen, kWhere, &inner);
+    return MarkAsAssumed(view, pivot, &inner);
+  }
+  const auto found = UnlessRefused([&] { return BladeWithEdge(search, border); });
+  if (found) Replace(*found, kWhere, &inner);
 }
 
 }  // namespace bladecurve

@@ -21,10 +21,12 @@ void BorrowInnerOne(const BladeView& view,
                     const Pivot& pivot,
                     Blades* blades);
 
-// The inner one is doubted where the other's mirror image is seen like that, as beyond the line of
-// a bevel or at the end of a shadow: by half as much, standard, as the two lie apart. Not where
-// that is further than bevels are wide.
-void DoubtInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
+// In a view of unknown tilt the inner one is the line of a bevel, however clear, if the blade hides
+// the other one's edge up to where that has its mirror image: its border is taken as it is seen
+// there, or else the other's mirror image, and marked as doubtful. If it hides nothing, but the
+// mirror image is seen as above, at a shadow's end perhaps, the inner one is doubted: by half as
+// much, standard, as the two lie apart. Neither where that is further than bevels are wide.
+void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 // Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
 // mirror image of the other, if that is clear, displaced to where most of the doubtful one lies on

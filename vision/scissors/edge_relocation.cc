@@ -251,7 +251,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (RelocateShadowedOne(view, pivot, blades)) return;
     if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
     if (NoneMoved(*blades)) RelocateFarClearerOne(view, pivot, blades);
-    if (NoneMoved(*blades)) DoubtInnerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
