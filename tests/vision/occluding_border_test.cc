@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -16,42 +17,56 @@ using testing::BrightenedAlongUpperEdge;
 using testing::Grained;
 using testing::kBevelPx;
 using testing::Measured;
+using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithMarkers;
 using testing::WithMirroringBevel;
 
-// Whether, in `picture`, the upper blade's border is taken to be where the line lies that so far
-// outwards of its true edge runs, the edge having been found so far inwards of that.
-bool Occludes(const cv::Mat& picture, double border_px, double inwards_px = kBevelPx) {
+// What becomes of the lower blade's edge, in `picture`, up to a line that lies so far outwards of
+// the true upper edge, that having been found so far inwards of the line.
+Occlusion Seen(const cv::Mat& picture, double border_px, double inwards_px = kBevelPx) {
   Measured measured{SceneWithMarkers()};
   LocatedBlade& upper = measured.blades.upper;
   measured.Misplace(&upper, border_px);
   const std::vector<LocatedEdgePoint> border = upper.used;
   measured.Misplace(&upper, -inwards_px);
   measured.photo = Measured::PhotoOf(picture);
-  return IsOccludingBorder(measured.View(), border, upper, measured.blades.lower);
+  return OcclusionUpTo(border, measured.View(), upper, measured.blades.lower);
 }
 
-// Beside the upper edge, from so far within the blade to so far; grey levels brighter.
-cv::Mat WithBand(double from_px, double to_px, double brighter) {
-  return Grained(BrightenedAlongUpperEdge(
-      SceneWithMarkers(), from_px, to_px, [&](double, double) { return brighter; }));
+TEST(OcclusionUpTo, TellsWhereABevelHidesTheOtherEdge) {
+  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), 0), Occlusion::kHidden);
 }
 
-TEST(IsOccludingBorder, IsWhereABevelHidesTheOtherBlade) {
-  EXPECT_TRUE(Occludes(WithMirroringBevel(SceneWithMarkers()), 0));
+TEST(OcclusionUpTo, TellsWhereTheOtherEdgeGoesOn) {
+  constexpr double kOutsidePx = 7;
+  EXPECT_EQ(Seen(RenderScene(SceneWithMarkers()).bgr, kBevelPx), Occlusion::kNone);
+  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), kOutsidePx), Occlusion::kNone);
 }
 
-// Of the same bevel, what lies further in or out is no border.
-TEST(IsOccludingBorder, IsNotWhereTheOtherBladesEdgeGoesOnOrEndsBefore) {
-  constexpr double kAsidePx = 7;
-  const cv::Mat picture = WithMirroringBevel(SceneWithMarkers());
-  EXPECT_FALSE(Occludes(picture, kAsidePx));
-  EXPECT_FALSE(Occludes(picture, -kAsidePx, kBevelPx - kAsidePx));
+TEST(OcclusionUpTo, DoesNotTellFromANarrowBand) {
+  constexpr double kInsidePx = 7, kNarrowPx = 2;
+  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), -kInsidePx, kNarrowPx),
+            Occlusion::kUntold);
 }
 
-// The other blade's edge is seen in it.
-TEST(IsOccludingBorder, IsNotAShadowsBorder) {
-  EXPECT_FALSE(Occludes(WithBand(-kBevelPx, 0, -60), kBevelPx));
+TEST(OcclusionUpTo, TellsWhereTheOtherEdgeGoesOnInAShadow) {
+  constexpr double kDarker = 60;
+  const cv::Mat picture = Grained(BrightenedAlongUpperEdge(
+      SceneWithMarkers(), -kBevelPx, 0, [](double, double) { return -kDarker; }));
+  EXPECT_EQ(Seen(picture, kBevelPx), Occlusion::kNone);
+}
+
+// Which then hides the other blade's edge although it lies on that and beside it.
+TEST(OcclusionUpTo, DoesNotTellInAShadowAsDarkAsTheOtherBlade) {
+  constexpr double kDepthPx = 4;
+  const SceneSpec spec = SceneWithMarkers();
+  const Measured measured{spec};
+  const LocatedEdgePoint& p = measured.blades.lower.used.front();
+  const Eigen::Vector2d on_blade = p.trend_px - kDepthPx * p.normal;
+  const uchar tone = measured.photo.grey().at<uchar>(cv::Point2d(on_blade.x(), on_blade.y()));
+  const cv::Mat picture = RetouchedAlongUpperEdge(
+      spec, -kBevelPx, 0, [&](const cv::Vec3d&, double, double) { return cv::Vec3d::all(tone); });
+  EXPECT_EQ(Seen(picture, kBevelPx), Occlusion::kUntold);
 }
 
 }  // namespace

@@ -149,6 +149,7 @@ void BorrowInnerOne(const BladeView& view,
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
+  if (OcclusionUpTo(edge.points, view, inner, other) == Occlusion::kNone) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
@@ -163,14 +164,15 @@ void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const auto trace = TraceBeyond(search, inner);
   const MirroredTrace by_end{LineBetweenEnds(view, pivot, *blades), kShare * WayPx(search)};
   const LocatedEdge border = Borrowed(other, trace.value_or(by_end), pivot);
-  if (!IsOccludingBorder(view, border.points, inner, other)) {
-    if (trace)
+  const Occlusion occlusion = OcclusionUpTo(border.points, view, inner, other);
+  if (occlusion != Occlusion::kHidden) {
+    if (trace && occlusion == Occlusion::kUntold)
       Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
     return;
   }
   const auto seen = LookWhereMirrored(search);
   if (seen && seen->blade.edge.ambiguity <= kSeen &&
-      IsOccludingBorder(view, seen->blade.used, inner, other)) {
+      OcclusionUpTo(seen->blade.used, view, inner, other) == Occlusion::kHidden) {
     Replace(*seen, kWhere, &inner);
     return MarkAsAssumed(view, pivot, &inner);
   }

@@ -81,24 +81,26 @@ JunctionLight LightAbout(const BladeView& view,
 
 }  // namespace
 
-bool IsOccludingBorder(const BladeView& view,
-                       const std::vector<LocatedEdgePoint>& border,
-                       const LocatedBlade& inner,
-                       const LocatedBlade& other) {
-  constexpr double kShows = 0.3;                  // ln of light
-  constexpr double kHidden = 0.3, kGoesOn = 0.3;  // of the edge's step
-  if (border.empty()) return false;
+Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
+                        const BladeView& view,
+                        const LocatedBlade& inner,
+                        const LocatedBlade& other) {
+  constexpr double kShows = 0.3;                                  // ln of light
+  constexpr double kHidden = 0.3, kSeen = 0.45, kGoesOver = 0.3;  // of the edge's step
+  if (border.empty()) return Occlusion::kUntold;
   const JunctionLight light = LightAbout(
       view, LineNearCrotch(border), LineNearCrotch(inner.used), LineNearCrotch(other.used));
-  if (!light.IsSeen()) return false;
+  if (!light.IsSeen()) return Occlusion::kUntold;
   const double blade = Median(light.blade), ground = Median(light.ground);
   const double blade_within = Median(light.blade_within);
   const double ground_within = Median(light.ground_within);
-  const double step = std::abs(ground - blade);
-  if (step < kShows || std::abs(ground_within - blade_within) > kHidden * step) return false;
+  const double step = ground - blade, left = (ground_within - blade_within) / step;
+  if (std::abs(step) < kShows) return Occlusion::kUntold;
+  if (left > kSeen) return Occlusion::kNone;
   const bool may_be_shadow = ground_within < ground;
-  const bool goes_on_over_blade = std::abs(blade_within - blade) > kGoesOn * step;
-  return !may_be_shadow || goes_on_over_blade;
+  const bool goes_over_blade = std::abs(blade_within - blade) > kGoesOver * std::abs(step);
+  const bool hidden = std::abs(left) < kHidden && (!may_be_shadow || goes_over_blade);
+  return hidden ? Occlusion::kHidden : Occlusion::kUntold;
 }
 
 }  // namespace bladecurve

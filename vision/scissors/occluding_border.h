@@ -9,14 +9,20 @@
 
 namespace bladecurve {
 
-// Whether a blade hides the other one up to `border`, which lies further out than the line `inner`
-// that its edge was found at: the other blade's edge, coming in from its tip, ends there in a
-// T-junction, and the band between is the top blade's bevel. In a shadow the edge would go on to be
-// seen. `border`: from the crotch on. Not where the edge does not show well enough to tell, or
-// where a shadow might hide it, as dark on the ground as the other blade is.
-[[nodiscard]] bool IsOccludingBorder(const BladeView& view,
-                                     const std::vector<LocatedEdgePoint>& border,
-                                     const LocatedBlade& inner,
-                                     const LocatedBlade& other);
+// What becomes of the other blade's edge, coming in from its tip, in the band between the border of
+// a blade and a line on it.
+enum class Occlusion {
+  kUntold,  // it does not show well enough
+  kNone,    // it is seen within: that is ground, or a shadow on it
+  kHidden,  // it ends at the border, in a T-junction: the band is the top blade's bevel
+};
+
+// `border`, from the crotch on, lies further out than the line `inner` that the blade's edge was
+// found at. Not kHidden where a shadow might hide the edge, as dark on the ground as the other
+// blade is.
+[[nodiscard]] Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
+                                      const BladeView& view,
+                                      const LocatedBlade& inner,
+                                      const LocatedBlade& other);
 
 }  // namespace bladecurve
