@@ -374,8 +374,9 @@ Measured WithMirroringBevelBelow(Bevelled blade) {
   SceneSpec spec = SceneWithMarkers();
   spec.scissors.upper_on_top = blade == Bevelled::kOver;
   Measured measured{spec};
-  cv::Mat picture = testing::WithMirroringBevel(spec);
-  if (blade == Bevelled::kBeneath) RestoreCrotch(measured, spec, &picture);
+  cv::Mat picture = spec.scissors.upper_on_top ? testing::WithBrightBevel(spec)
+                                               : testing::WithMirroringBevel(spec);
+  if (!spec.scissors.upper_on_top) RestoreCrotch(measured, spec, &picture);
   measured.Misplace(&measured.blades.upper, -testing::kBevelPx);
   measured.photo = Measured::PhotoOf(picture);
   measured.scale.sheet.reset();
@@ -458,6 +459,28 @@ TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
   EXPECT_TRUE(borrowed(kBrighter, true));
   EXPECT_FALSE(borrowed(-kBrighter, true));
   EXPECT_FALSE(borrowed(kBrighter, false));
+}
+
+// Of an edge far out that is darker than the ground, the inner one being seen to hide nothing
+// further out; blades bent to one side differ as well.
+TEST(BorrowOuterOne, TakesTheOuterOneForItsShadowsUnlessTheInnerOneMayBeABevels) {
+  constexpr double kAsidePx = 12, kClosePx = 0.5, kBent = 0.005;
+  const auto borrowed = [&](double contrast, const cv::Mat& picture, double unlikeness) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    measured.Misplace(&upper, kAsidePx, contrast);
+    Measured::MakeClear(&measured.blades.lower);
+    measured.pivot.unlikeness = unlikeness;
+    measured.photo = Measured::PhotoOf(picture);
+    BorrowOuterOne(measured.View(), measured.pivot, &measured.blades);
+    EXPECT_EQ(upper.moved.empty(), FarFrom(measured.truth.upper, upper.used) > kClosePx);
+    return !upper.moved.empty();
+  };
+  const cv::Mat shadowed = testing::WithShadowBeside(SceneWithMarkers(), kAsidePx);
+  EXPECT_TRUE(borrowed(Measured::kStrong, shadowed, 0));
+  EXPECT_FALSE(borrowed(-Measured::kStrong, shadowed, 0)) << "brighter than the ground";
+  EXPECT_FALSE(borrowed(Measured::kStrong, testing::BareSheet(), 0)) << "nothing is seen of it";
+  EXPECT_FALSE(borrowed(Measured::kStrong, shadowed, kBent));
 }
 
 // It is the curve that is told of the blade; the view's tilt may part the edges, too, which is

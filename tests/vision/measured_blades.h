@@ -125,6 +125,23 @@ inline cv::Mat WithMirroringBevel(const SceneSpec& spec) {
   }));
 }
 
+// The scissors with a bevel that is a little brighter than the sheet, over the other blade as well.
+inline cv::Mat WithBrightBevel(const SceneSpec& spec) {
+  constexpr double kBrighter = 12;
+  const cv::Vec3b sheet = RenderScene(spec).bgr.at<cv::Vec3b>(spec.height / 2, 10);
+  return Grained(RetouchedAlongUpperEdge(spec, 0, kBevelPx, [&](const cv::Vec3d&, double, double) {
+    return cv::Vec3d(sheet) + cv::Vec3d::all(kBrighter);
+  }));
+}
+
+// The scissors with a shadow beside the upper edge that is so wide; the other blade's edge, moved
+// along with what it is beside, is seen in it.
+inline cv::Mat WithShadowBeside(const SceneSpec& spec, double width_px) {
+  constexpr double kDarker = 60;
+  return Grained(
+      BrightenedAlongUpperEdge(spec, -width_px, 0, [](double, double) { return -kDarker; }));
+}
+
 // As a camera that sees no colours takes the scene: none tell shadows from blades.
 inline cv::Mat WithoutColours(const SceneSpec& spec) {
   cv::Mat grey;

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "measured_blades.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {
 
-using testing::BrightenedAlongUpperEdge;
-using testing::Grained;
 using testing::kBevelPx;
 using testing::Measured;
 using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithMarkers;
-using testing::WithMirroringBevel;
+using testing::WithBrightBevel;
+using testing::WithShadowBeside;
 
 // What becomes of the lower blade's edge, in `picture`, up to a line that lies so far outwards of
 // the true upper edge, that having been found so far inwards of the line.
@@ -30,30 +30,26 @@ Occlusion Seen(const cv::Mat& picture, double border_px, double inwards_px = kBe
   const std::vector<LocatedEdgePoint> border = upper.used;
   measured.Misplace(&upper, -inwards_px);
   measured.photo = Measured::PhotoOf(picture);
-  return OcclusionUpTo(border, measured.View(), upper, measured.blades.lower);
+  return OcclusionUpTo(border, upper.used, measured.blades.lower.used, measured.View());
 }
 
 TEST(OcclusionUpTo, TellsWhereABevelHidesTheOtherEdge) {
-  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), 0), Occlusion::kHidden);
+  EXPECT_EQ(Seen(WithBrightBevel(SceneWithMarkers()), 0), Occlusion::kHidden);
 }
 
 TEST(OcclusionUpTo, TellsWhereTheOtherEdgeGoesOn) {
   constexpr double kOutsidePx = 7;
   EXPECT_EQ(Seen(RenderScene(SceneWithMarkers()).bgr, kBevelPx), Occlusion::kNone);
-  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), kOutsidePx), Occlusion::kNone);
+  EXPECT_EQ(Seen(WithBrightBevel(SceneWithMarkers()), kOutsidePx), Occlusion::kNone);
 }
 
 TEST(OcclusionUpTo, DoesNotTellFromANarrowBand) {
   constexpr double kInsidePx = 7, kNarrowPx = 2;
-  EXPECT_EQ(Seen(WithMirroringBevel(SceneWithMarkers()), -kInsidePx, kNarrowPx),
-            Occlusion::kUntold);
+  EXPECT_EQ(Seen(WithBrightBevel(SceneWithMarkers()), -kInsidePx, kNarrowPx), Occlusion::kUntold);
 }
 
 TEST(OcclusionUpTo, TellsWhereTheOtherEdgeGoesOnInAShadow) {
-  constexpr double kDarker = 60;
-  const cv::Mat picture = Grained(BrightenedAlongUpperEdge(
-      SceneWithMarkers(), -kBevelPx, 0, [](double, double) { return -kDarker; }));
-  EXPECT_EQ(Seen(picture, kBevelPx), Occlusion::kNone);
+  EXPECT_EQ(Seen(WithShadowBeside(SceneWithMarkers(), kBevelPx), kBevelPx), Occlusion::kNone);
 }
 
 // Which then hides the other blade's edge although it lies on that and beside it.
@@ -67,6 +63,38 @@ TEST(OcclusionUpTo, DoesNotTellInAShadowAsDarkAsTheOtherBlade) {
   const cv::Mat picture = RetouchedAlongUpperEdge(
       spec, -kBevelPx, 0, [&](const cv::Vec3d&, double, double) { return cv::Vec3d::all(tone); });
   EXPECT_EQ(Seen(picture, kBevelPx), Occlusion::kUntold);
+}
+
+// The other blade is the top one: what hides its edge is not this blade.
+TEST(OcclusionUpTo, DoesNotTellWhereTheOtherEdgeIsSeenOnTheBlade) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.upper_on_top = false;
+  EXPECT_EQ(Seen(WithBrightBevel(spec), 0), Occlusion::kUntold);
+}
+
+// Whether the upper edge, found so far outwards of the truth, is confirmed although there is a line
+// so far out of it.
+bool Confirms(const cv::Mat& picture, double outwards_px, double rival_px) {
+  constexpr double kDoubtPx = 3, kKnownPx = 1;
+  Measured measured{SceneWithMarkers()};
+  LocatedEdge& edge = measured.blades.upper.edge;
+  measured.Misplace(&measured.blades.upper, outwards_px);
+  Measured::MakeClear(&measured.blades.upper);
+  SetRival(&edge, rival_px);
+  DoubtForRival(&edge, kDoubtPx);
+  measured.photo = Measured::PhotoOf(picture);
+  ConfirmByOcclusion(measured.View(), measured.blades.lower.edge, &edge);
+  EXPECT_EQ(edge.ambiguity < 0.5, edge.common_sigma_px < kKnownPx);
+  return edge.ambiguity < 0.5;
+}
+
+TEST(ConfirmByOcclusion, DoubtsNoBorderForALineWithinOrBeyondIt) {
+  const cv::Mat bevelled = WithBrightBevel(SceneWithMarkers());
+  const cv::Mat plain = RenderScene(SceneWithMarkers()).bgr;
+  EXPECT_TRUE(Confirms(bevelled, 0, -kBevelPx));
+  EXPECT_FALSE(Confirms(bevelled, -kBevelPx, kBevelPx)) << "the line is the border";
+  EXPECT_TRUE(Confirms(plain, 0, kBevelPx));
+  EXPECT_FALSE(Confirms(plain, kBevelPx, -kBevelPx)) << "the line is the border";
 }
 
 }  // namespace

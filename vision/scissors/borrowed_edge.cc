@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "vision/image/cross.h"
 #include "vision/image/robust_statistics.h"
@@ -22,9 +23,6 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kShare = 0.5;         // of the difference, standard
-constexpr double kWidestBevel = 0.06;  // of the length
 
 // The other blade's edge, mirrored.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
@@ -139,6 +137,7 @@ void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades) {
+  constexpr double kShare = 0.5;  // of the difference, standard
   const auto [inner, other] = InnerOne(pivot, blades);
   if (!MayMirror(other, pivot) || !DifferBeyondPivot(pivot, *blades)) return;
   const bool knows_mirror = KnowsMirror(view, pivot);
@@ -149,22 +148,40 @@ void BorrowInnerOne(const BladeView& view,
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
-  if (OcclusionUpTo(edge.points, view, inner, other) == Occlusion::kNone) return;
+  if (OcclusionUpTo(edge.points, inner.used, other.used, view) == Occlusion::kNone) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
 
+void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kDoubt = 0.25;          // of the way, standard
+  constexpr double kAlikeInShape = 0.003;  // of the length; blades bent to one side are not
+  const auto [outer, inner] = OneOf(blades, !LiesInwards(blades->upper, pivot));
+  if (!MayMirror(inner, pivot) || !DifferBeyondPivot(pivot, *blades)) return;
+  const bool may_be_shadows = AreFarUnlike(pivot.asymmetry) && TypicalContrast(outer.edge) > 0 &&
+                              pivot.unlikeness < kAlikeInShape;
+  if (!may_be_shadows) return;
+  const MirrorLine line = LineBetween(view, pivot, *blades);
+  std::vector<LocatedEdgePoint> beyond_inner;
+  for (const LocatedEdgePoint& p : outer.used) beyond_inner.push_back(line.Reflected(p));
+  if (OcclusionUpTo(beyond_inner, inner.used, outer.used, view) != Occlusion::kNone) return;
+  const MirroredBladeSearch search{view, pivot, inner, line};
+  const LocatedEdge edge = Borrowed(inner, {line, kDoubt * WayPx(search)}, pivot);
+  const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
+  if (found) Replace(*found, "the other one mirrored, as that hides nothing further out", &outer);
+}
+
 void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kDoubt = 0.5;  // of the way
-  constexpr double kSeen = 0.6;   // ambiguity
+  constexpr double kWidestBevel = 0.06;  // of the length
+  constexpr double kDoubt = 0.5;         // of the way
+  constexpr double kSeen = 0.6;          // ambiguity
   constexpr const char* kWhere = "up to where it hides the other one";
   const auto [inner, other] = InnerOne(pivot, blades);
   if (!MayMirror(other, pivot) || std::abs(pivot.asymmetry) > kWidestBevel) return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   const auto trace = TraceBeyond(search, inner);
-  const MirroredTrace by_end{LineBetweenEnds(view, pivot, *blades), kShare * WayPx(search)};
-  const LocatedEdge border = Borrowed(other, trace.value_or(by_end), pivot);
-  const Occlusion occlusion = OcclusionUpTo(border.points, view, inner, other);
+  const LocatedEdge border = Borrowed(other, trace.value_or(MirroredTrace{search.line}), pivot);
+  const Occlusion occlusion = OcclusionUpTo(border.points, inner.used, other.used, view);
   if (occlusion != Occlusion::kHidden) {
     if (trace && occlusion == Occlusion::kUntold)
       Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
@@ -172,10 +189,11 @@ void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   }
   const auto seen = LookWhereMirrored(search);
   if (seen && seen->blade.edge.ambiguity <= kSeen &&
-      OcclusionUpTo(seen->blade.used, view, inner, other) == Occlusion::kHidden) {
+      OcclusionUpTo(seen->blade.used, inner.used, other.used, view) == Occlusion::kHidden) {
     Replace(*seen, kWhere, &inner);
     return MarkAsAssumed(view, pivot, &inner);
   }
+  if (!trace) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, border); });
   if (found) Replace(*found, kWhere, &inner);
 }

@@ -14,18 +14,24 @@ namespace bladecurve {
 // doubtful. In a view of known tilt also where nothing is seen of it, if both blades are clearly
 // seen and brighter than the ground: half as far off as the edges differ, standard. In one of
 // unknown tilt no clear edge is: that may part them, too. Not where the other edge is doubtful
-// itself or hardly shows, nor where the pivot may account for the difference, nor about a head that
-// may be none: of that the edges say nothing.
+// itself or hardly shows, or is seen to go on within the band between, nor where the pivot may
+// account for the difference, nor about a head that may be none: of that the edges say nothing.
 void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
                     Blades* blades);
 
-// In a view of unknown tilt the inner one is the line of a bevel, however clear, if the blade hides
-// the other one's edge up to where that has its mirror image: its border is taken as it is seen
-// there, or else the other's mirror image, and marked as doubtful. If it hides nothing, but the
-// mirror image is seen as above, at a shadow's end perhaps, the inner one is doubted: by half as
-// much, standard, as the two lie apart. Neither where that is further than bevels are wide.
+// In a view of known tilt the outer one of edges far unlike, darker than the ground, is a shadow's
+// border if the inner blade hides nothing of it further out than it was found, where that one's
+// mirror image lies: it is replaced by the inner one's, a quarter as far off as they differ,
+// standard. Not where they are unlike in shape, as blades that are bent to one side.
+void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades);
+
+// The inner one is the line of a bevel, however clear, if the blade hides the other one's edge up
+// to where that has its mirror image: its border is taken as it is seen there, or else the other's
+// mirror image if that is seen as above, and marked as doubtful. Where nothing tells whether it
+// hides that, but the mirror image is seen, at a shadow's end perhaps, the inner one is doubted: by
+// half as much, standard, as the two lie apart. Neither where that is further than bevels are wide.
 void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 // Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the

@@ -10,6 +10,7 @@
 #include "vision/edge/edge_tread.h"
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_doubt.h"
+#include "vision/scissors/occluding_border.h"
 
 namespace bladecurve {
 namespace {
@@ -29,11 +30,10 @@ EdgeGuess Within(const LocatedEdge& edge, double nearest_px, double farthest_px,
 }
 
 // The edge as much further in as the shadow is wide, if light clearly changes there, as it does not
-// where the margin is but shading; doubted all the same, the shadow's border being its rival.
-LocatedEdge WhereShadowBegins(const BladeView& view,
-                              LocatedEdge edge,
-                              const Margin& shadow,
-                              bool left) {
+// where the margin is but shading; doubted unless it is sure to be a shadow, whose border is its
+// rival.
+LocatedEdge WhereShadowBegins(
+    const BladeView& view, LocatedEdge edge, const Margin& shadow, bool is_sure, bool left) {
   constexpr double kReach = 0.2, kLeast = 3;  // of the width, px; bevels end further in
   constexpr double kUnclear = 0.75;           // ambiguity
   constexpr double kDoubt = 0.5;              // of the width
@@ -42,6 +42,7 @@ LocatedEdge WhereShadowBegins(const BladeView& view,
       view.InShadow(Within(edge, shadow.width_px - reach_px, shadow.width_px + reach_px, left),
                     shadow.than_blade);
   if (!begins || begins->ambiguity > kUnclear) return edge;
+  if (is_sure) return *std::move(begins);
   SetRival(&*begins, shadow.width_px);
   DoubtForRival(&*begins, kDoubt * shadow.width_px);
   return *std::move(begins);
@@ -159,14 +160,18 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
   const auto of_upper = view.MarginOf(edges->upper, true);
   const auto of_lower = view.MarginOf(edges->lower, false);
   const bool alone = of_upper.has_value() != of_lower.has_value();  // else both may be bevels
-  const auto is_shadow = [&](const Margin& margin, bool left) {
-    return IsShadowOfShank(view, margin, left) || IsShadowOfWholeSide(view, margin, left) ||
-           (alone && IsShadowOfOtherBlade(view, margin, left));
+  const auto leave = [&](const std::optional<Margin>& margin, bool left) {
+    if (!margin) return;
+    LocatedEdge& edge = left ? edges->upper : edges->lower;
+    const LocatedEdge& other = left ? edges->lower : edges->upper;
+    const bool is_sure = OcclusionBeside(edge, -margin->width_px, other, view) == Occlusion::kNone;
+    if (is_sure || IsShadowOfShank(view, *margin, left) ||
+        IsShadowOfWholeSide(view, *margin, left) ||
+        (alone && IsShadowOfOtherBlade(view, *margin, left)))
+      edge = WhereShadowBegins(view, std::move(edge), *margin, is_sure, left);
   };
-  if (of_upper && is_shadow(*of_upper, true))
-    edges->upper = WhereShadowBegins(view, std::move(edges->upper), *of_upper, true);
-  if (of_lower && is_shadow(*of_lower, false))
-    edges->lower = WhereShadowBegins(view, std::move(edges->lower), *of_lower, false);
+  leave(of_upper, true);
+  leave(of_lower, false);
 }
 
 void LeaveNarrowShadow(const BladeView& view, BladeEdges* edges) {

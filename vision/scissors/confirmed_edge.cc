@@ -14,12 +14,6 @@
 namespace bladecurve {
 namespace {
 
-// Of an edge's place, but for what its rival makes of it.
-double SigmaWithoutRival(const LocatedEdge& edge) {
-  return std::sqrt(
-      std::max(0.0, std::pow(edge.common_sigma_px, 2) - std::pow(edge.rival_sigma_px, 2)));
-}
-
 // The ways in which the other edge may pass.
 std::vector<double> WaysOf(const LocatedBlade& blade) {
   if (blade.edge.rival_sigma_px > 0) return {0, ByRivalPx(blade)};
@@ -50,10 +44,7 @@ void ConfirmMirroredEdges(const BladeView& view, const Pivot& pivot, Blades* bla
   }
   for (const std::size_t i : {0, 1}) {
     if (!confirmed[i]) continue;
-    LocatedEdge& edge = both[i]->edge;
-    edge.common_sigma_px = SigmaWithoutRival(edge);
-    edge.rival_sigma_px = 0;
-    edge.ambiguity = std::min(edge.ambiguity, kAsGood);
+    DropRival(&both[i]->edge);
   }
 }
 

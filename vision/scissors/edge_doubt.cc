@@ -62,6 +62,17 @@ void DoubtForRival(LocatedEdge* edge, double off_px) {
   edge->rival_sigma_px = std::hypot(edge->rival_sigma_px, off_px);
 }
 
+double SigmaWithoutRival(const LocatedEdge& edge) {
+  return std::sqrt(
+      std::max(0.0, std::pow(edge.common_sigma_px, 2) - std::pow(edge.rival_sigma_px, 2)));
+}
+
+void DropRival(LocatedEdge* edge) {
+  edge->common_sigma_px = SigmaWithoutRival(*edge);
+  edge->rival_sigma_px = 0;
+  edge->ambiguity = std::min(edge->ambiguity, kAsGood);
+}
+
 void SetRival(LocatedEdge* edge, double rival_px) {
   edge->rival_px = rival_px;
   edge->rival_path_px.clear();

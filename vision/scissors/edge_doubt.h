@@ -27,6 +27,12 @@ void Doubt(LocatedEdge* edge, double off_px);
 // The same for the sake of its rival, which may be its border.
 void DoubtForRival(LocatedEdge* edge, double off_px);
 
+// What an edge's common uncertainty is but for its rival.
+[[nodiscard]] double SigmaWithoutRival(const LocatedEdge& edge);
+
+// Makes an edge as certain as if it had no rival.
+void DropRival(LocatedEdge* edge);
+
 // Makes a line so far out of the blade the edge's rival.
 void SetRival(LocatedEdge* edge, double rival_px);
 

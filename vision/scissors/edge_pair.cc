@@ -15,6 +15,7 @@
 #include "vision/scissors/cast_shadow.h"
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/ground_colour.h"
+#include "vision/scissors/occluding_border.h"
 #include "vision/scissors/scene_guess.h"
 #include "vision/scissors/unseen_bevel.h"
 
@@ -165,6 +166,8 @@ BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   DoubtDarkLine(view, true, &edges.upper);
   DoubtDarkLine(view, false, &edges.lower);
   LeaveBevelsLine(view, &edges);
+  ConfirmByOcclusion(view, edges.lower, &edges.upper);
+  ConfirmByOcclusion(view, edges.upper, &edges.lower);
   return edges;
 }
 

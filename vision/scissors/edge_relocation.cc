@@ -258,6 +258,8 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (AreSuspect(pivot.asymmetry)) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) BorrowOuterOne(view, pivot, blades);
     if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {
     const auto look = [&](bool upper) {

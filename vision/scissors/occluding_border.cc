@@ -9,6 +9,7 @@
 
 #include "vision/image/cross.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
 namespace {
@@ -32,75 +33,115 @@ Line LineNearCrotch(const std::vector<LocatedEdgePoint>& edge) {
   return line;
 }
 
+// Those of an edge that count, moved outwards.
+std::vector<LocatedEdgePoint> InlyingPoints(const LocatedEdge& edge, double outwards_px) {
+  std::vector<LocatedEdgePoint> points;
+  for (LocatedEdgePoint p : edge.points) {
+    if (!p.inlier) continue;
+    p.trend_px += outwards_px * p.normal;
+    points.push_back(p);
+  }
+  return points;
+}
+
 bool IsBeside(double off_px) { return std::abs(off_px) > kClearPx && std::abs(off_px) < kReachPx; }
 
-// ln of the light about a junction of a border with the other blade's edge: on the other blade and
-// beside it, outside of the border and within, where the inner line is not reached.
-struct JunctionLight {
-  std::vector<double> blade, ground, blade_within, ground_within;
+// ln of the light along a stretch of the other blade's edge: on that blade, and beside it.
+struct Sides {
+  std::vector<double> blade, beside;
 
-  [[nodiscard]] bool IsSeen() const {
+  [[nodiscard]] bool AreSeen() const {
     constexpr std::size_t kLeast = 6;  // pixels
-    return std::min({blade.size(), ground.size(), blade_within.size(), ground_within.size()}) >=
-           kLeast;
+    return std::min(blade.size(), beside.size()) >= kLeast;
   }
+  [[nodiscard]] double Step() const { return Median(beside) - Median(blade); }
 };
 
-JunctionLight LightAbout(const BladeView& view,
-                         const Line& border,
-                         const Line& inner,
-                         const Line& edge) {
+// About a junction of a border with that edge: beyond the border, in the band between it and the
+// inner line, and within that.
+struct Junction {
+  Sides beyond, band, within;
+};
+
+// Of the place at these distances from border and inner line; nullptr near a line, or far from all.
+Sides* StretchAt(double outside_px, double inner_px, Junction* junction) {
+  if (outside_px > 0) return IsBeside(outside_px) ? &junction->beyond : nullptr;
+  if (inner_px < 0) return IsBeside(inner_px) ? &junction->within : nullptr;
+  return std::min(-outside_px, inner_px) > kClearPx ? &junction->band : nullptr;
+}
+
+Junction JunctionOf(const BladeView& view,
+                    const Line& border,
+                    const Line& inner,
+                    const Line& edge) {
   constexpr double kLeastSine = 0.1;  // between the edges
   constexpr double kDark = 0.002;     // added to the light: noise is no less
-  JunctionLight light;
+  Junction junction;
   const double sine = std::abs(Cross(border.normal(), edge.normal()));
-  if (sine < kLeastSine) return light;
-  const Vector2d junction = border.intersection(edge);
-  const double width_px = std::max(0.0, inner.signedDistance(junction));
+  if (sine < kLeastSine) return junction;
+  const Vector2d center = border.intersection(edge);
+  const double width_px = std::max(0.0, inner.signedDistance(center));
   const int reach = static_cast<int>((width_px + kReachPx) / sine + 2 * kReachPx);
   const cv::Mat& grey = view.grey();
-  const cv::Rect about(
-      cv::Point(static_cast<int>(junction.x()) - reach, static_cast<int>(junction.y()) - reach),
-      cv::Size(2 * reach, 2 * reach));
+  const cv::Rect about(static_cast<int>(center.x()) - reach,
+                       static_cast<int>(center.y()) - reach,
+                       2 * reach,
+                       2 * reach);
   const cv::Rect seen = about & cv::Rect(cv::Point(), grey.size());
   for (int y = seen.y; y < seen.br().y; ++y) {
     for (int x = seen.x; x < seen.br().x; ++x) {
       const Vector2d place(x, y);
-      const double off_edge = edge.signedDistance(place);
-      const double outside = border.signedDistance(place);
-      const bool is_within = outside < -kClearPx && inner.signedDistance(place) > kClearPx;
-      if (!IsBeside(off_edge) || !(is_within || (outside > 0 && IsBeside(outside)))) continue;
-      std::vector<double>& blade = is_within ? light.blade_within : light.blade;
-      std::vector<double>& ground = is_within ? light.ground_within : light.ground;
-      const float linear = view.tone().linear[grey.at<uchar>(y, x)];
-      (off_edge > 0 ? ground : blade).push_back(std::log(kDark + static_cast<double>(linear)));
+      const double off_px = edge.signedDistance(place);
+      if (!IsBeside(off_px)) continue;
+      Sides* const sides =
+          StretchAt(border.signedDistance(place), inner.signedDistance(place), &junction);
+      if (!sides) continue;
+      const float light = view.tone().linear[grey.at<uchar>(y, x)];
+      (off_px > 0 ? sides->beside : sides->blade)
+          .push_back(std::log(kDark + static_cast<double>(light)));
     }
   }
-  return light;
+  return junction;
 }
 
 }  // namespace
 
 Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
-                        const BladeView& view,
-                        const LocatedBlade& inner,
-                        const LocatedBlade& other) {
-  constexpr double kShows = 0.3;                                  // ln of light
-  constexpr double kHidden = 0.3, kSeen = 0.45, kGoesOver = 0.3;  // of the edge's step
-  if (border.empty()) return Occlusion::kUntold;
-  const JunctionLight light = LightAbout(
-      view, LineNearCrotch(border), LineNearCrotch(inner.used), LineNearCrotch(other.used));
-  if (!light.IsSeen()) return Occlusion::kUntold;
-  const double blade = Median(light.blade), ground = Median(light.ground);
-  const double blade_within = Median(light.blade_within);
-  const double ground_within = Median(light.ground_within);
-  const double step = ground - blade, left = (ground_within - blade_within) / step;
+                        const std::vector<LocatedEdgePoint>& inner,
+                        const std::vector<LocatedEdgePoint>& other,
+                        const BladeView& view) {
+  constexpr double kShows = 0.3;                // ln of light
+  constexpr double kHidden = 0.3, kSeen = 0.6;  // of the edge's step
+  constexpr double kBeneath = 0.5;
+  if (border.empty() || inner.empty() || other.empty()) return Occlusion::kUntold;
+  const auto [beyond, band, within] =
+      JunctionOf(view, LineNearCrotch(border), LineNearCrotch(inner), LineNearCrotch(other));
+  if (!beyond.AreSeen() || !band.AreSeen()) return Occlusion::kUntold;
+  const double step = beyond.Step();
   if (std::abs(step) < kShows) return Occlusion::kUntold;
+  const double left = band.Step() / step;
   if (left > kSeen) return Occlusion::kNone;
-  const bool may_be_shadow = ground_within < ground;
-  const bool goes_over_blade = std::abs(blade_within - blade) > kGoesOver * std::abs(step);
-  const bool hidden = std::abs(left) < kHidden && (!may_be_shadow || goes_over_blade);
-  return hidden ? Occlusion::kHidden : Occlusion::kUntold;
+  if (std::abs(left) > kHidden) return Occlusion::kUntold;
+  if (within.AreSeen() && std::abs(within.Step() / step) > kBeneath) return Occlusion::kUntold;
+  const bool brighter = Median(band.beside) > Median(beyond.beside);
+  return brighter ? Occlusion::kHidden : Occlusion::kUntold;
+}
+
+Occlusion OcclusionBeside(const LocatedEdge& edge,
+                          double line_px,
+                          const LocatedEdge& other,
+                          const BladeView& view) {
+  const std::vector<LocatedEdgePoint> on_edge = InlyingPoints(edge, 0);
+  const std::vector<LocatedEdgePoint> on_line = InlyingPoints(edge, line_px);
+  const bool is_border = line_px < 0;
+  return OcclusionUpTo(
+      is_border ? on_edge : on_line, is_border ? on_line : on_edge, InlyingPoints(other, 0), view);
+}
+
+void ConfirmByOcclusion(const BladeView& view, const LocatedEdge& other, LocatedEdge* edge) {
+  if (!(edge->rival_sigma_px > 0)) return;
+  const Occlusion told = OcclusionBeside(*edge, edge->rival_px, other, view);
+  if (told == (edge->rival_px > 0 ? Occlusion::kNone : Occlusion::kHidden)) DropRival(edge);
 }
 
 }  // namespace bladecurve

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "vision/edge/edge.h"
 #include "vision/scissors/blade_view.h"
-#include "vision/scissors/located_blade.h"
 
 namespace bladecurve {
 
@@ -17,12 +17,22 @@ enum class Occlusion {
   kHidden,  // it ends at the border, in a T-junction: the band is the top blade's bevel
 };
 
-// `border`, from the crotch on, lies further out than the line `inner` that the blade's edge was
-// found at. Not kHidden where a shadow might hide the edge, as dark on the ground as the other
-// blade is.
+// All from the crotch on: `border` further out than the line `inner`; `other`, the other blade's
+// edge. Told to be hidden only where the band is brighter than the ground: a shadow may hide an
+// edge, too. Not where that is seen within the inner line as well: its own blade is the top one.
 [[nodiscard]] Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
-                                      const BladeView& view,
-                                      const LocatedBlade& inner,
-                                      const LocatedBlade& other);
+                                      const std::vector<LocatedEdgePoint>& inner,
+                                      const std::vector<LocatedEdgePoint>& other,
+                                      const BladeView& view);
+
+// The same in the band between an edge and the line `line_px` out of it, or within.
+[[nodiscard]] Occlusion OcclusionBeside(const LocatedEdge& edge,
+                                        double line_px,
+                                        const LocatedEdge& other,
+                                        const BladeView& view);
+
+// An edge that has a rival is in no doubt for that if the other blade's edge tells the band between
+// the two: seen in it, that is no metal; hidden, it is.
+void ConfirmByOcclusion(const BladeView& view, const LocatedEdge& other, LocatedEdge* edge);
 
 }  // namespace bladecurve
