@@ -15,20 +15,20 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-using Line = Eigen::Hyperplane<double, 2>;
+using StraightLine = Eigen::Hyperplane<double, 2>;
 
 constexpr double kClearPx = 1.3;  // of a line, beyond its blur
 constexpr double kReachPx = 6;    // from a line
 
 // An edge as it runs near the crotch, where it hardly bends, and before; distances from it are
 // positive outwards. Of the very first points neighbours are missing.
-Line LineNearCrotch(const std::vector<LocatedEdgePoint>& edge) {
+StraightLine LineNearCrotch(const std::vector<LocatedEdgePoint>& edge) {
   constexpr double kFrom = 0.03, kTo = 0.18;  // of the edge
   const auto at = [&](double share) {
     return edge[static_cast<std::size_t>(share * static_cast<double>(edge.size()))];
   };
   const LocatedEdgePoint from = at(kFrom), to = at(kTo);
-  Line line = Line::Through(from.trend_px, to.trend_px);
+  StraightLine line = StraightLine::Through(from.trend_px, to.trend_px);
   if (line.normal().dot(from.normal + to.normal) < 0) line.coeffs() = -line.coeffs();
   return line;
 }
@@ -71,9 +71,9 @@ Sides* StretchAt(double outside_px, double inner_px, Junction* junction) {
 }
 
 Junction JunctionOf(const BladeView& view,
-                    const Line& border,
-                    const Line& inner,
-                    const Line& edge) {
+                    const StraightLine& border,
+                    const StraightLine& inner,
+                    const StraightLine& edge) {
   constexpr double kLeastSine = 0.1;  // between the edges
   constexpr double kDark = 0.002;     // added to the light: noise is no less
   Junction junction;
