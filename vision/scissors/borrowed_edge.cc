@@ -148,7 +148,8 @@ void BorrowInnerOne(const BladeView& view,
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
-  if (OcclusionUpTo(edge.points, inner.used, other.used, view) == Occlusion::kNone) return;
+  const Occlusion occlusion = OcclusionUpTo(edge.points, inner.used, other.used, view);
+  if (occlusion == Occlusion::kNone || occlusion == Occlusion::kOnTop) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }

@@ -112,7 +112,7 @@ Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
                         const BladeView& view) {
   constexpr double kShows = 0.3;                // ln of light
   constexpr double kHidden = 0.3, kSeen = 0.6;  // of the edge's step
-  constexpr double kBeneath = 0.5;
+  constexpr double kOnTop = 0.5;
   if (border.empty() || inner.empty() || other.empty()) return Occlusion::kUntold;
   const auto [beyond, band, within] =
       JunctionOf(view, LineNearCrotch(border), LineNearCrotch(inner), LineNearCrotch(other));
@@ -120,9 +120,9 @@ Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
   const double step = beyond.Step();
   if (std::abs(step) < kShows) return Occlusion::kUntold;
   const double left = band.Step() / step;
-  if (left > kSeen) return Occlusion::kNone;
-  if (std::abs(left) > kHidden) return Occlusion::kUntold;
-  if (within.AreSeen() && std::abs(within.Step() / step) > kBeneath) return Occlusion::kUntold;
+  const bool is_on_top = within.AreSeen() && std::abs(within.Step() / step) > kOnTop;
+  if (left > kSeen) return is_on_top ? Occlusion::kOnTop : Occlusion::kNone;
+  if (is_on_top || std::abs(left) > kHidden) return Occlusion::kUntold;
   const bool brighter = Median(band.beside) > Median(beyond.beside);
   return brighter ? Occlusion::kHidden : Occlusion::kUntold;
 }

@@ -13,13 +13,14 @@ namespace bladecurve {
 // a blade and a line on it.
 enum class Occlusion {
   kUntold,  // it does not show well enough
-  kNone,    // it is seen within: that is ground, or a shadow on it
+  kNone,    // it is seen in the band, but not on the blade: that is ground, or a shadow on it
+  kOnTop,   // it is seen in the band and on the blade: no bevel, its own blade is the top one
   kHidden,  // it ends at the border, in a T-junction: the band is the top blade's bevel
 };
 
 // All from the crotch on: `border` further out than the line `inner`; `other`, the other blade's
 // edge. Told to be hidden only where the band is brighter than the ground: a shadow may hide an
-// edge, too. Not where that is seen within the inner line as well: its own blade is the top one.
+// edge, too.
 [[nodiscard]] Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
                                       const std::vector<LocatedEdgePoint>& inner,
                                       const std::vector<LocatedEdgePoint>& other,
