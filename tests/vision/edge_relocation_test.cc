@@ -461,14 +461,12 @@ TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
   EXPECT_FALSE(borrowed(kBrighter, false));
 }
 
-// Of an edge far out that is darker than the ground, the inner one, on top, being seen to hide
+// Of an edge far out that is darker than the ground, the inner one being seen to hide
 // nothing further out; blades bent to one side differ as well.
 TEST(BorrowOuterOne, TakesTheOuterOneForItsShadowsUnlessTheInnerOneMayBeABevels) {
   constexpr double kAsidePx = 12, kClosePx = 0.5, kBent = 0.005;
-  SceneSpec spec = SceneWithMarkers();
-  spec.scissors.upper_on_top = false;
   const auto borrowed = [&](double contrast, const cv::Mat& picture, double unlikeness) {
-    Measured measured{spec};
+    Measured measured{SceneWithMarkers()};
     LocatedBlade& upper = measured.blades.upper;
     measured.Misplace(&upper, kAsidePx, contrast);
     Measured::MakeClear(&measured.blades.lower);
@@ -478,7 +476,7 @@ TEST(BorrowOuterOne, TakesTheOuterOneForItsShadowsUnlessTheInnerOneMayBeABevels)
     EXPECT_EQ(upper.moved.empty(), FarFrom(measured.truth.upper, upper.used) > kClosePx);
     return !upper.moved.empty();
   };
-  const cv::Mat shadowed = testing::WithShadowBeside(spec, kAsidePx);
+  const cv::Mat shadowed = testing::WithShadowBeside(SceneWithMarkers(), kAsidePx);
   EXPECT_TRUE(borrowed(Measured::kStrong, shadowed, 0));
   EXPECT_FALSE(borrowed(-Measured::kStrong, shadowed, 0)) << "brighter than the ground";
   EXPECT_FALSE(borrowed(Measured::kStrong, testing::BareSheet(), 0)) << "nothing is seen of it";

@@ -148,8 +148,7 @@ void BorrowInnerOne(const BladeView& view,
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
-  const Occlusion occlusion = OcclusionUpTo(edge.points, inner.used, other.used, view);
-  if (occlusion == Occlusion::kNone || occlusion == Occlusion::kOnTop) return;
+  if (IsSeenInBand(OcclusionUpTo(edge.points, inner.used, other.used, view))) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
@@ -165,7 +164,7 @@ void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirrorLine line = LineBetween(view, pivot, *blades);
   std::vector<LocatedEdgePoint> beyond_inner;
   for (const LocatedEdgePoint& p : outer.used) beyond_inner.push_back(line.Reflected(p));
-  if (OcclusionUpTo(beyond_inner, inner.used, outer.used, view) != Occlusion::kNone) return;
+  if (!IsSeenInBand(OcclusionUpTo(beyond_inner, inner.used, outer.used, view))) return;
   const MirroredBladeSearch search{view, pivot, inner, line};
   const LocatedEdge edge = Borrowed(inner, {line, kDoubt * WayPx(search)}, pivot);
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });

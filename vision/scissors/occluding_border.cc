@@ -141,7 +141,8 @@ Occlusion OcclusionBeside(const LocatedEdge& edge,
 void ConfirmByOcclusion(const BladeView& view, const LocatedEdge& other, LocatedEdge* edge) {
   if (!(edge->rival_sigma_px > 0)) return;
   const Occlusion told = OcclusionBeside(*edge, edge->rival_px, other, view);
-  if (told == (edge->rival_px > 0 ? Occlusion::kNone : Occlusion::kHidden)) DropRival(edge);
+  const bool is_border = edge->rival_px > 0 ? IsSeenInBand(told) : told == Occlusion::kHidden;
+  if (is_border) DropRival(edge);
 }
 
 }  // namespace bladecurve

@@ -18,6 +18,11 @@ enum class Occlusion {
   kHidden,  // it ends at the border, in a T-junction: the band is the top blade's bevel
 };
 
+// Whether the edge is seen in the band, be it on the blade or not.
+[[nodiscard]] constexpr bool IsSeenInBand(Occlusion occlusion) {
+  return occlusion == Occlusion::kNone || occlusion == Occlusion::kOnTop;
+}
+
 // All from the crotch on: `border` further out than the line `inner`; `other`, the other blade's
 // edge. Told to be hidden only where the band is brighter than the ground: a shadow may hide an
 // edge, too.
