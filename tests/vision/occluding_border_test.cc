@@ -30,7 +30,7 @@ Occlusion Seen(const cv::Mat& picture, double border_px, double inwards_px = kBe
   const std::vector<LocatedEdgePoint> border = upper.used;
   measured.Misplace(&upper, -inwards_px);
   measured.photo = Measured::PhotoOf(picture);
-  return OcclusionUpTo(border, upper.used, measured.blades.lower.used, measured.View());
+  return OcclusionUpTo(measured.View(), border, upper.used, measured.blades.lower.used);
 }
 
 TEST(OcclusionUpTo, TellsWhereABevelHidesTheOtherEdge) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "vision/image/cross.h"
@@ -27,7 +28,7 @@ using Eigen::Vector2d;
 // The other blade's edge, mirrored.
 LocatedEdge Borrowed(const LocatedBlade& other, const MirroredTrace& trace, const Pivot& pivot) {
   LocatedEdge edge = other.edge;
-  for (LocatedEdgePoint& p : edge.points) p = trace.line.Reflected(p);
+  edge.points = trace.line.Reflected(std::move(edge.points));
   edge.common_sigma_px = std::hypot(edge.common_sigma_px, trace.sigma_px, pivot.SigmaPx());
   edge.ambiguity = kAssumedAmbiguity;
   edge.rival_px = edge.rival_sigma_px = 0;
@@ -148,7 +149,7 @@ void BorrowInnerOne(const BladeView& view,
     trace.emplace(MirroredTrace{line, kShare * WayPx(search)});
   if (!trace) return;
   const LocatedEdge edge = Borrowed(other, *trace, pivot);
-  if (IsSeenInBand(OcclusionUpTo(edge.points, inner.used, other.used, view))) return;
+  if (IsSeenInBand(OcclusionUpTo(view, edge.points, inner.used, other.used))) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
   if (found) Replace(*found, "the other one mirrored, along a faint step in the light", &inner);
 }
@@ -162,9 +163,8 @@ void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
                               pivot.unlikeness < kAlikeInShape;
   if (!may_be_shadows) return;
   const MirrorLine line = LineBetween(view, pivot, *blades);
-  std::vector<LocatedEdgePoint> beyond_inner;
-  for (const LocatedEdgePoint& p : outer.used) beyond_inner.push_back(line.Reflected(p));
-  if (!IsSeenInBand(OcclusionUpTo(beyond_inner, inner.used, outer.used, view))) return;
+  const std::vector<LocatedEdgePoint> beyond_inner = line.Reflected(outer.used);
+  if (!IsSeenInBand(OcclusionUpTo(view, beyond_inner, inner.used, outer.used))) return;
   const MirroredBladeSearch search{view, pivot, inner, line};
   const LocatedEdge edge = Borrowed(inner, {line, kDoubt * WayPx(search)}, pivot);
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, edge); });
@@ -181,7 +181,7 @@ void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   const auto trace = TraceBeyond(search, inner);
   const LocatedEdge border = Borrowed(other, trace.value_or(MirroredTrace{search.line}), pivot);
-  const Occlusion occlusion = OcclusionUpTo(border.points, inner.used, other.used, view);
+  const Occlusion occlusion = OcclusionUpTo(view, border.points, inner.used, other.used);
   if (occlusion != Occlusion::kHidden) {
     if (trace && occlusion == Occlusion::kUntold)
       Doubt(&inner.edge, kDoubt * ShareInPx(ShareApart(*trace, inner, other), pivot, *blades));
@@ -189,7 +189,7 @@ void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   }
   const auto seen = LookWhereMirrored(search);
   if (seen && seen->blade.edge.ambiguity <= kSeen &&
-      OcclusionUpTo(seen->blade.used, inner.used, other.used, view) == Occlusion::kHidden) {
+      OcclusionUpTo(view, seen->blade.used, inner.used, other.used) == Occlusion::kHidden) {
     Replace(*seen, kWhere, &inner);
     return MarkAsAssumed(view, pivot, &inner);
   }

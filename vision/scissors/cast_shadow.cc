@@ -164,7 +164,7 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
     if (!margin) return;
     LocatedEdge& edge = left ? edges->upper : edges->lower;
     const LocatedEdge& other = left ? edges->lower : edges->upper;
-    const bool is_sure = OcclusionBeside(edge, -margin->width_px, other, view) == Occlusion::kNone;
+    const bool is_sure = OcclusionBeside(view, edge, -margin->width_px, other) == Occlusion::kNone;
     if (is_sure || IsShadowOfShank(view, *margin, left) ||
         IsShadowOfWholeSide(view, *margin, left) ||
         (alone && IsShadowOfOtherBlade(view, *margin, left)))

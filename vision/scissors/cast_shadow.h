@@ -12,8 +12,8 @@ namespace bladecurve {
 [[nodiscard]] LocatedEdge LeaveSoftShadow(const BladeView& view, LocatedEdge edge, bool left);
 
 // An edge along the border of a shadow that its blade casts is looked for where that begins. The
-// other blade's edge goes on within it; or, in some doubt, its own shank or the other blade's outer
-// side, which face the same way, cast the same one.
+// other blade's edge goes on within it, but not over its blade; or, in some doubt, its own shank or
+// the other blade's outer side, which face the same way, cast the same one.
 void LeaveCastShadow(const BladeView& view, BladeEdges* edges);
 
 // An edge of dark metal along the border of its own shadow, where that is so narrow that it looks

@@ -34,6 +34,11 @@ LocatedEdgePoint MirrorLine::Reflected(LocatedEdgePoint point) const {
   return point;
 }
 
+std::vector<LocatedEdgePoint> MirrorLine::Reflected(std::vector<LocatedEdgePoint> points) const {
+  for (LocatedEdgePoint& p : points) p = Reflected(p);
+  return points;
+}
+
 bool KnowsMirror(const BladeView& view, const Pivot& pivot) {
   return view.scale().sheet && AssumesMirror(view, pivot);
 }

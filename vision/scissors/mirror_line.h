@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "vision/pivot/edge_gap.h"
 #include "vision/pivot/pivot.h"
@@ -30,6 +31,7 @@ struct MirrorLine {
   [[nodiscard]] Eigen::Vector2d Reflected(const Eigen::Vector2d& image_px) const;
   // A point of one edge as a point of the other.
   [[nodiscard]] LocatedEdgePoint Reflected(LocatedEdgePoint point) const;
+  [[nodiscard]] std::vector<LocatedEdgePoint> Reflected(std::vector<LocatedEdgePoint> points) const;
 };
 
 // Whether edges are to mirror each other about a line through the pivot: markers tell the tilt of

@@ -33,12 +33,6 @@ constexpr double kStepPx = 0.5;  // of the trace's end, from one direction of th
 // Where the other edge's mirror image lies.
 using Trace = std::vector<LocatedEdgePoint>;
 
-Trace MirroredEdge(const LocatedBlade& other, const MirrorLine& line) {
-  Trace trace;
-  for (const LocatedEdgePoint& p : other.used) trace.push_back(line.Reflected(p));
-  return trace;
-}
-
 // A run of points of a trace.
 struct Part {
   std::size_t first = 0, end = 0;
@@ -275,7 +269,7 @@ std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
     return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
   };
   const std::vector<SeenTrace> traces = ParallelMap(2 * farthest + 1, [&](int step) {
-    const Trace trace = MirroredEdge(other, turned(step - farthest));
+    const Trace trace = turned(step - farthest).Reflected(other.used);
     return SeenTrace{PartsSeen(view, trace, inner, other), LeavesEnd(trace, inner, difference_px)};
   });
   BorderTest test(blur_px);

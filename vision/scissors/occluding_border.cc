@@ -106,10 +106,10 @@ Junction JunctionOf(const BladeView& view,
 
 }  // namespace
 
-Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
+Occlusion OcclusionUpTo(const BladeView& view,
+                        const std::vector<LocatedEdgePoint>& border,
                         const std::vector<LocatedEdgePoint>& inner,
-                        const std::vector<LocatedEdgePoint>& other,
-                        const BladeView& view) {
+                        const std::vector<LocatedEdgePoint>& other) {
   constexpr double kShows = 0.3;                // ln of light
   constexpr double kHidden = 0.3, kSeen = 0.6;  // of the edge's step
   constexpr double kOnTop = 0.5;
@@ -127,20 +127,20 @@ Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
   return brighter ? Occlusion::kHidden : Occlusion::kUntold;
 }
 
-Occlusion OcclusionBeside(const LocatedEdge& edge,
+Occlusion OcclusionBeside(const BladeView& view,
+                          const LocatedEdge& edge,
                           double line_px,
-                          const LocatedEdge& other,
-                          const BladeView& view) {
+                          const LocatedEdge& other) {
   const std::vector<LocatedEdgePoint> on_edge = InlyingPoints(edge, 0);
   const std::vector<LocatedEdgePoint> on_line = InlyingPoints(edge, line_px);
   const bool is_border = line_px < 0;
   return OcclusionUpTo(
-      is_border ? on_edge : on_line, is_border ? on_line : on_edge, InlyingPoints(other, 0), view);
+      view, is_border ? on_edge : on_line, is_border ? on_line : on_edge, InlyingPoints(other, 0));
 }
 
 void ConfirmByOcclusion(const BladeView& view, const LocatedEdge& other, LocatedEdge* edge) {
   if (!(edge->rival_sigma_px > 0)) return;
-  const Occlusion told = OcclusionBeside(*edge, edge->rival_px, other, view);
+  const Occlusion told = OcclusionBeside(view, *edge, edge->rival_px, other);
   const bool is_border = edge->rival_px > 0 ? IsSeenInBand(told) : told == Occlusion::kHidden;
   if (is_border) DropRival(edge);
 }

@@ -24,18 +24,18 @@ enum class Occlusion {
 }
 
 // All from the crotch on: `border` further out than the line `inner`; `other`, the other blade's
-// edge. Told to be hidden only where the band is brighter than the ground: a shadow may hide an
-// edge, too.
-[[nodiscard]] Occlusion OcclusionUpTo(const std::vector<LocatedEdgePoint>& border,
+// edge. Told to be hidden only where the band is brighter than the ground, as a shadow may hide an
+// edge, too, and the edge is not seen on the blade.
+[[nodiscard]] Occlusion OcclusionUpTo(const BladeView& view,
+                                      const std::vector<LocatedEdgePoint>& border,
                                       const std::vector<LocatedEdgePoint>& inner,
-                                      const std::vector<LocatedEdgePoint>& other,
-                                      const BladeView& view);
+                                      const std::vector<LocatedEdgePoint>& other);
 
 // The same in the band between an edge and the line `line_px` out of it, or within.
-[[nodiscard]] Occlusion OcclusionBeside(const LocatedEdge& edge,
+[[nodiscard]] Occlusion OcclusionBeside(const BladeView& view,
+                                        const LocatedEdge& edge,
                                         double line_px,
-                                        const LocatedEdge& other,
-                                        const BladeView& view);
+                                        const LocatedEdge& other);
 
 // An edge that has a rival is in no doubt for that if the other blade's edge tells the band between
 // the two: seen in it, that is no metal; hidden, it is.
