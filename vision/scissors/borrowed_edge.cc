@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/borrowed_edge.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -75,7 +75,6 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
   };
   GapCourse course;
   course.Fit(gap, 2, agrees);
-  const double aside_mm = course.powers[0], rad = course.powers[1];
   const Vector2d end = line.map.PlaneFromImage(blade.used.back().trend_px) - line.pivot;
   const double inwards = std::copysign(1.0, Cross(line.direction, end));
   std::size_t agreeing = 0, astray = 0;
@@ -85,11 +84,9 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
   }
   const auto places = static_cast<double>(gap.along.size());
   if (static_cast<double>(agreeing) < kMost * places ||
-      static_cast<double>(astray) < kRest * places || AreUnlike(aside_mm / length_mm))
+      static_cast<double>(astray) < kRest * places || AreUnlike(course.powers[0] / length_mm))
     return std::nullopt;
-  return MirrorLine{line.map,
-                    line.pivot + 0.5 * aside_mm * line.Across(),
-                    Eigen::Rotation2Dd(0.5 * rad) * line.direction};
+  return line.MovedBy(course);
 }
 
 // About a head that may be none edges say nothing of each other, nor does one that is in doubt.

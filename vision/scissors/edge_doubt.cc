@@ -73,6 +73,16 @@ void DropRival(LocatedEdge* edge) {
   edge->ambiguity = std::min(edge->ambiguity, kAsGood);
 }
 
+void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower) {
+  constexpr double kSamePx = 1;
+  if (wider.ambiguity <= narrower->ambiguity || MedianDistance(*narrower, wider) > kSamePx) return;
+  narrower->ambiguity = wider.ambiguity;
+  narrower->rival_px = wider.rival_px;
+  narrower->rival_path_px = wider.rival_path_px;
+  narrower->rival_sigma_px = wider.rival_sigma_px;
+  narrower->common_sigma_px = std::max(narrower->common_sigma_px, wider.common_sigma_px);
+}
+
 void SetRival(LocatedEdge* edge, double rival_px) {
   edge->rival_px = rival_px;
   edge->rival_path_px.clear();

@@ -33,6 +33,9 @@ void DoubtForRival(LocatedEdge* edge, double off_px);
 // Makes an edge as certain as if it had no rival.
 void DropRival(LocatedEdge* edge);
 
+// What a wider look saw beside the same line is in doubt although a narrower one does not see it.
+void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower);
+
 // Makes a line so far out of the blade the edge's rival.
 void SetRival(LocatedEdge* edge, double rival_px);
 

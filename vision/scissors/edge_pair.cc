@@ -14,6 +14,7 @@
 #include "vision/refused.h"
 #include "vision/scissors/cast_shadow.h"
 #include "vision/scissors/dark_band.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/occluding_border.h"
 #include "vision/scissors/scene_guess.h"
@@ -23,17 +24,6 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-// What a wider look saw beside the same line is in doubt although a narrower one does not see it.
-void KeepRival(const LocatedEdge& wider, LocatedEdge* narrower) {
-  constexpr double kSamePx = 1;
-  if (wider.ambiguity <= narrower->ambiguity || MedianDistance(*narrower, wider) > kSamePx) return;
-  narrower->ambiguity = wider.ambiguity;
-  narrower->rival_px = wider.rival_px;
-  narrower->rival_path_px = wider.rival_path_px;
-  narrower->rival_sigma_px = wider.rival_sigma_px;
-  narrower->common_sigma_px = std::max(narrower->common_sigma_px, wider.common_sigma_px);
-}
 
 // Where much of an edge strays, the guess led the look astray: once more, along the curve that most
 // of the edge follows, if that tells more.

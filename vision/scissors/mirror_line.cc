@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/mirror_line.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -37,6 +38,11 @@ LocatedEdgePoint MirrorLine::Reflected(LocatedEdgePoint point) const {
 std::vector<LocatedEdgePoint> MirrorLine::Reflected(std::vector<LocatedEdgePoint> points) const {
   for (LocatedEdgePoint& p : points) p = Reflected(p);
   return points;
+}
+
+MirrorLine MirrorLine::MovedBy(const GapCourse& apart) const {
+  const double aside = apart.powers[0], turn = apart.powers[1];
+  return {map, pivot + 0.5 * aside * Across(), Eigen::Rotation2Dd(0.5 * turn) * direction};
 }
 
 bool KnowsMirror(const BladeView& view, const Pivot& pivot) {

@@ -32,6 +32,9 @@ struct MirrorLine {
   // A point of one edge as a point of the other.
   [[nodiscard]] LocatedEdgePoint Reflected(LocatedEdgePoint point) const;
   [[nodiscard]] std::vector<LocatedEdgePoint> Reflected(std::vector<LocatedEdgePoint> points) const;
+  // The line about which mirror images lie where an edge does that is apart from them by a straight
+  // course.
+  [[nodiscard]] MirrorLine MovedBy(const GapCourse& apart) const;
 };
 
 // Whether edges are to mirror each other about a line through the pivot: markers tell the tilt of

@@ -18,6 +18,7 @@
 #include "vision/scissors/edge_parting.h"
 #include "vision/scissors/edge_relocation.h"
 #include "vision/scissors/end_pair.h"
+#include "vision/scissors/lost_end.h"
 #include "vision/scissors/mirror_line.h"
 #include "vision/scissors/unseen_bevel.h"
 
@@ -26,12 +27,13 @@ namespace {
 
 Blades LocateAndTrim(const BladeView& view, StageLog* log) {
   BladeEdges edges = LocateBlades(view, log->plan());
-  log->Picture("edge-upper", [&] { return DrawEdge(view.grey(), edges.upper); });
-  log->Picture("edge-lower", [&] { return DrawEdge(view.grey(), edges.lower); });
   Blades blades{{true, std::move(edges.upper), {}, {}, {}},
                 {false, std::move(edges.lower), {}, {}, {}},
                 false};
   ParallelFor(2, [&](int blade) { TrimToFree(view, blade == 0 ? &blades.upper : &blades.lower); });
+  FindLostEnds(view, &blades);
+  log->Picture("edge-upper", [&] { return DrawEdge(view.grey(), blades.upper.edge); });
+  log->Picture("edge-lower", [&] { return DrawEdge(view.grey(), blades.lower.edge); });
   log->Ran("edges", "full resolution along the blades only");
   return blades;
 }

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scissors/lost_end.h"
+
+#include <gtest/gtest.h>
+
+#include "measured_blades.h"
+
+namespace bladecurve {
+namespace {
+
+using testing::BareSheet;
+using testing::FarFrom;
+using testing::Measured;
+using testing::SceneWithMarkers;
+
+// As if from there on a line so far aside had been followed.
+void LoseEnd(bool upper, Measured* measured) {
+  constexpr double kSeen = 0.6, kAsidePx = 12;
+  LocatedBlade& blade = measured->Blade(upper);
+  std::vector<LocatedEdgePoint>& points = blade.edge.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i].inlier &= static_cast<double>(i) < kSeen * static_cast<double>(points.size());
+  measured->Shift(&blade, [](double share) { return share < kSeen ? 0 : -kAsidePx; });
+}
+
+double LengthOf(const LocatedBlade& blade) {
+  return (blade.used.back().point_px - blade.used.front().point_px).norm();
+}
+
+TEST(FindLostEnds, FollowsAnEdgeOnAsTheOtherOneGoes) {
+  constexpr double kClosePx = 0.2, kSame = 0.01;
+  for (const bool upper : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    const double length_px = LengthOf(measured.Blade(upper));
+    LoseEnd(upper, &measured);
+    ASSERT_LT(LengthOf(measured.Blade(upper)), 0.7 * length_px);
+    FindLostEnds(measured.View(), &measured.blades);
+    EXPECT_NEAR(LengthOf(measured.Blade(upper)), length_px, kSame * length_px) << upper;
+    EXPECT_LT(FarFrom(measured.TrueEdge(upper), measured.Blade(upper).used), kClosePx) << upper;
+  }
+}
+
+TEST(FindLostEnds, KeepsTheDoubtThatARivalMakes) {
+  constexpr double kAmbiguity = 0.4, kRivalPx = 7;
+  Measured measured{SceneWithMarkers()};
+  measured.blades.upper.edge.ambiguity = kAmbiguity;
+  measured.blades.upper.edge.rival_px = kRivalPx;
+  LoseEnd(true, &measured);
+  const std::size_t before = measured.blades.upper.used.size();
+  FindLostEnds(measured.View(), &measured.blades);
+  EXPECT_GT(measured.blades.upper.used.size(), before);
+  EXPECT_DOUBLE_EQ(measured.blades.upper.edge.ambiguity, kAmbiguity);
+  EXPECT_DOUBLE_EQ(measured.blades.upper.edge.rival_px, kRivalPx);
+}
+
+TEST(FindLostEnds, LeavesWhatTheOtherOneCannotTell) {
+  const auto unchanged = [](const char* why, const auto& spoil) {
+    Measured measured{SceneWithMarkers()};
+    LoseEnd(true, &measured);
+    spoil(&measured);
+    const std::size_t before = measured.blades.upper.used.size();
+    FindLostEnds(measured.View(), &measured.blades);
+    EXPECT_EQ(measured.blades.upper.used.size(), before) << why;
+  };
+  unchanged("lost as well", [](Measured* measured) { LoseEnd(false, measured); });
+  unchanged("in doubt", [](Measured* measured) { measured->blades.lower.edge.ambiguity = 1; });
+  unchanged("nothing seen where it should go on",
+            [](Measured* measured) { measured->photo = Measured::PhotoOf(BareSheet()); });
+}
+
+}  // namespace
+}  // namespace bladecurve
