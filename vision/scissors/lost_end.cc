@@ -66,6 +66,7 @@ void FindLostEnd(const BladeView& view,
                  LocatedBlade* blade) {
   constexpr double kLost = 0.08, kHardlyLost = 0.1;  // of the points; a tip alone smears fewer
   constexpr double kLess = 0.5;                      // of what was lost before
+  constexpr double kNoVaguer = 0.3;                  // of what was known; ends are seen less well
   const double lost = LostShare(blade->edge);
   if (lost < kLost || LostShare(other.edge) > kHardlyLost || IsDoubtful(other.edge)) return;
   const auto guess = GuessBeyond(*blade, other, line);
@@ -75,9 +76,9 @@ void FindLostEnd(const BladeView& view,
     TrimToFree(view, &again);
     return again;
   });
-  const bool tells_more = found && IsClear(found->edge) && LostShare(found->edge) < kLess * lost &&
-                          Information(found->edge) > Information(blade->edge);
-  if (!tells_more) return;
+  const bool is_whole = found && IsClear(found->edge) && LostShare(found->edge) < kLess * lost &&
+                        Information(found->edge) > kNoVaguer * Information(blade->edge);
+  if (!is_whole) return;
   KeepRival(blade->edge, &found->edge);
   *blade = *std::move(found);
 }

@@ -8,7 +8,7 @@ namespace bladecurve {
 
 // An edge that strays from some place on all the way to the tip is looked for there as the other
 // one, if that does not, goes on: mirrored, and moved to where the rest of it lies. It is taken if
-// it is clear then and tells more.
+// it is clear then and not much vaguer.
 void FindLostEnds(const BladeView& view, Blades* blades);
 
 }  // namespace bladecurve
