@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 #include "measured_blades.h"
 
 namespace bladecurve {
@@ -67,6 +73,24 @@ TEST(FindLostEnds, LeavesWhatTheOtherOneCannotTell) {
   unchanged("in doubt", [](Measured* measured) { measured->blades.lower.edge.ambiguity = 1; });
   unchanged("nothing seen where it should go on",
             [](Measured* measured) { measured->photo = Measured::PhotoOf(BareSheet()); });
+}
+
+// Where a part of an edge is known from the other one alone, and the tip is not seen.
+TEST(TrimToFree, DoubtsTheEndByAFifthOfWhatIsLost) {
+  constexpr double kShare = 0.2, kAbout = 0.05;
+  Measured measured{SceneWithMarkers()};
+  LocatedBlade& blade = measured.blades.upper;
+  measured.photo = Measured::PhotoOf(BareSheet());
+  TrimToFree(measured.View(), &blade);
+  const double seen_sigma_px = blade.end.along_sigma_px;
+  const std::vector<Eigen::Vector2d> whole = TrendOf(blade.edge);
+  LoseEnd(true, &measured);
+  const std::size_t seen = static_cast<std::size_t>(std::count_if(
+      blade.edge.points.begin(), blade.edge.points.end(), [](const auto& p) { return p.inlier; }));
+  TrimToFree(
+      measured.View(), &blade, {whole.begin() + static_cast<std::ptrdiff_t>(seen), whole.end()});
+  const double lost_px = (whole.back() - whole[seen]).norm();
+  EXPECT_NEAR(blade.end.along_sigma_px / std::hypot(seen_sigma_px, kShare * lost_px), 1, kAbout);
 }
 
 }  // namespace

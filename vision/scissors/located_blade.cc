@@ -90,6 +90,13 @@ std::vector<LocatedEdgePoint> Beyond(const Vector2d& from_px, const LocatedBlade
   return kept;
 }
 
+// How far before its end an edge is lost: from its last point that counts on.
+double LostPx(const LocatedEdge& edge) {
+  const auto last = std::find_if(
+      edge.points.rbegin(), edge.points.rend(), [](const auto& point) { return point.inlier; });
+  return last == edge.points.rend() ? 0 : (edge.points.back().trend_px - last->trend_px).norm();
+}
+
 // Where the tip's arc leaves the edge in colours that part blade and ground much better than grey
 // does, if it is seen there.
 std::optional<DistalEnds> EndsInColours(const BladeView& view,
@@ -112,6 +119,7 @@ std::optional<DistalEnds> EndsInColours(const BladeView& view,
 }  // namespace
 
 void TrimToFree(const BladeView& view, LocatedBlade* blade, const std::vector<Vector2d>& beyond) {
+  constexpr double kOfLost = 0.2;  // of what is lost of the edge, standard
   std::vector<Vector2d> points = InlierPoints(blade->edge);
   points.insert(points.end(), beyond.begin(), beyond.end());
   const SceneBlade& seen = BladeOf(view.scene(), blade->on_left);
@@ -124,6 +132,9 @@ void TrimToFree(const BladeView& view, LocatedBlade* blade, const std::vector<Ve
     if (auto coloured = EndsInColours(view, points, search)) ends = *std::move(coloured);
   }
   blade->end = ends.likely;
+  if (!blade->end.arc_seen)
+    blade->end.along_sigma_px =
+        std::hypot(blade->end.along_sigma_px, kOfLost * LostPx(blade->edge));
   blade->rival_ends = std::move(ends.rivals);
   KeepFree(view.scene(), blade);
 }

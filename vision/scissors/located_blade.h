@@ -31,7 +31,8 @@ struct Blades {
 };
 
 // Finds the distal end and keeps what lies between the crotch, where the other blade's edge is
-// near, and that end. Throws Refused{kEdgeTooShort}.
+// near, and that end. Where the edge is lost before its end and no arc of the tip tells where that
+// is, it is uncertain by a fifth of the way on. Throws Refused{kEdgeTooShort}.
 // `beyond`: where the edge is known to go on towards the tip although it is not seen.
 void TrimToFree(const BladeView& view,
                 LocatedBlade* blade,
