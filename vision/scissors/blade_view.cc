@@ -154,6 +154,11 @@ const PicturePart& BladeView::Colours() const {
   return colours_;
 }
 
+bool BladeView::IsLarge() const {
+  constexpr double kLarge = 6e6;  // px
+  return static_cast<double>(grey().total()) > kLarge;
+}
+
 const ReducedColours& BladeView::Reduced() const {
   constexpr int kSmallest = 2000;  // px, of the longest side
   std::call_once(halved_, [this] {

@@ -80,6 +80,9 @@ class BladeView {
   // BGR, about the blades; and at half the resolution, at which colours are stored anyway, where
   // the photograph is large.
   [[nodiscard]] const PicturePart& Colours() const;
+  // Whether they have been decoded, and whether that takes long.
+  [[nodiscard]] bool HasColours() const { return !colours_.pixels.empty(); }
+  [[nodiscard]] bool IsLarge() const;
   [[nodiscard]] const ReducedColours& Reduced() const;
   // Whether the topmost rows, which stand for the ground, show a colour.
   [[nodiscard]] bool ShowsColourAtTop() const;

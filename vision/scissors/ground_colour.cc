@@ -102,9 +102,7 @@ bool ShadowsMightPass(const BladeView& view, const BladeEdges& edges) {
 }  // namespace
 
 void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges) {
-  constexpr double kLarge = 6e6;  // px
-  const bool costly = static_cast<double>(view.grey().total()) > kLarge;
-  if (plan == Plan::kAsNeeded && costly && !LeavesDoubt(edges->upper) &&
+  if (plan == Plan::kAsNeeded && view.IsLarge() && !LeavesDoubt(edges->upper) &&
       !LeavesDoubt(edges->lower) && !ShadowsMightPass(view, *edges))
     return;
   const BladeEdges found = *edges;

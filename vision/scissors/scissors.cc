@@ -11,6 +11,7 @@
 #include "vision/pivot/pivot_debug.h"
 #include "vision/refused.h"
 #include "vision/scissors/blade_view.h"
+#include "vision/scissors/colour_shift.h"
 #include "vision/scissors/confirmed_edge.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_doubt.h"
@@ -124,6 +125,7 @@ Scissors LocateIn(const ScissorsView& seen, Scene scene, StageLog* log) {
   Reconcile(view, &pivot, &parts.blades, log);
   DropFalseHead(view, parts.blades, &pivot, log);
   CheckAgainstEachOther(view, pivot, &parts.blades);
+  UndoLumaShift(view, log->plan(), &parts.blades);
   SettleEnds(view, pivot, &parts.blades);
   return {std::move(scene), std::move(pivot), std::move(parts.blades)};
 }
