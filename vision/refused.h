@@ -42,6 +42,12 @@ class Refused : public std::runtime_error {
   Reason reason_;
 };
 
+// The same where no other look at the photograph may find otherwise.
+class RefusedForGood : public Refused {
+ public:
+  using Refused::Refused;
+};
+
 // make(), or nothing where that throws Refused.
 template <typename Make>
 [[nodiscard]] auto UnlessRefused(const Make& make)

@@ -90,6 +90,26 @@ TEST(RefuseInconsistent, AsksForNoPivotThatIsGiven) {
   }
 }
 
+TEST(RefuseInconsistent, RefusesJawsForGoodWhereAllIsSeen) {
+  const auto for_good = [](double evidence, double ambiguity) {
+    Pivot jaws = PivotSeen(0);
+    jaws.overlap = 0.01;
+    jaws.screw.emplace().evidence = evidence;
+    Blades blades = BladesWithRivals(0, 0);
+    blades.lower.edge.ambiguity = ambiguity;
+    try {
+      RefuseInconsistent(jaws, blades);
+    } catch (const RefusedForGood& refused) {
+      return refused.reason() == Reason::kNotScissors;
+    } catch (const Refused&) {
+    }
+    return false;
+  };
+  EXPECT_TRUE(for_good(2 * kUnmistakable, 0.1));
+  EXPECT_FALSE(for_good(0.5 * kUnmistakable, 0.1)) << "it may be another screw";
+  EXPECT_FALSE(for_good(2 * kUnmistakable, 0.8)) << "it may be another edge";
+}
+
 TEST(RefuseInconsistent, TakesNoWhiteBladeOnWhiteForAnAngledOneOrAJaw) {
   Blades white = BladesWithRivals(0, 0);
   white.lower.edge.overexposed = 0.9;

@@ -55,17 +55,25 @@ void RefuseUnknownPivot(const Pivot& pivot, const Blades& blades) {
                     "scissors wider");
 }
 
+// Whether what is seen of blades and screw leaves no doubt about how they lie to each other.
+bool AreSurelySeen(const Pivot& pivot, const Blades& blades) {
+  return pivot.screw && pivot.screw->evidence > kUnmistakable && IsClear(blades.upper.edge) &&
+         IsClear(blades.lower.edge);
+}
+
 void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   if (pivot.overlap + pivot.overlap_sigma >= kSlenderestOverlap) return;
   RefuseWhite(blades);
-  throw Refused(
-      Reason::kNotScissors,
-      std::string("pivot: the two inner edges meet at the pivot instead of passing by it, like the "
-                  "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are "
-                  "scissors, ") +
-          (pivot.source == "hint" ? "one edge was taken elsewhere: use another background or "
-                                    "light, or check --pivot"
-                                  : "say where the screw is: --pivot X,Y"));
+  const std::string detail =
+      std::string(
+          "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
+          "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are "
+          "scissors, ") +
+      (pivot.source == "hint" ? "one edge was taken elsewhere: use another background or light, or "
+                                "check --pivot"
+                              : "say where the screw is: --pivot X,Y");
+  if (AreSurelySeen(pivot, blades)) throw RefusedForGood(Reason::kNotScissors, detail);
+  throw Refused(Reason::kNotScissors, detail);
 }
 
 // Seen from a known side, about a screw that is seen.

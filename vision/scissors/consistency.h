@@ -21,7 +21,8 @@ namespace bladecurve {
 
 // Throws Refused where edges and pivot cannot be those of flat scissors: kOutOfPlane for angled
 // blades, kNotScissors for jaws that meet instead of crossing, kAmbiguousPivot where neither a
-// screw nor the blades tell where they turn.
+// screw nor the blades tell where they turn. RefusedForGood for jaws that meet at a screw, all of
+// them seen beyond doubt.
 void RefuseInconsistent(const Pivot& pivot, const Blades& blades);
 
 // Throws Refused{kClosed} where the distal ends lie on each other, or have passed each other: the

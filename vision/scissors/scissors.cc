@@ -138,6 +138,9 @@ Scissors LocateScissors(const ScissorsView& view, SceneFinder* finder, StageLog*
     try {
       if (look > 1) finder->LookAgain();
       return LocateIn(view, finder->Likeliest(), log);
+    } catch (const RefusedForGood&) {
+      if (by_likeliest) break;
+      throw;
     } catch (const Refused& refusal) {
       if (!by_likeliest) by_likeliest = refusal;
       if (look < SceneFinder::kLooks) log->Ran("scene-again", refusal.what());
