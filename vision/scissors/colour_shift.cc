@@ -22,7 +22,7 @@ constexpr std::size_t kStretches = 12;  // of an edge; shadows lie along some of
 
 // Light on either side of a stretch of an edge: the colours clear of its blur, the step at it, as
 // shadows may end in between.
-class Sides {
+class SideColours {
  public:
   void Add(const BladeView& view, const LocatedEdgePoint& p, double clear_px) {
     constexpr double kBeyondPx = 2;
@@ -69,14 +69,14 @@ double StretchOf(std::size_t point, const LocatedEdge& edge) {
 std::array<double, kStretches> ShiftsPx(const BladeView& view, const LocatedEdge& edge) {
   constexpr double kPerBlur = 2.5, kChromaPx = 1.5;  // colours are stored at half the resolution
   const double blur_px = TotalBlur(edge);
-  std::array<Sides, kStretches> sides;
+  std::array<SideColours, kStretches> sides;
   for (std::size_t i = 0; i < edge.points.size(); ++i) {
     if (!edge.points[i].inlier) continue;
     sides[static_cast<std::size_t>(StretchOf(i, edge))].Add(
         view, edge.points[i], kPerBlur * blur_px + kChromaPx);
   }
   std::array<double, kStretches> shifts_px;
-  std::transform(sides.begin(), sides.end(), shifts_px.begin(), [&](const Sides& side) {
+  std::transform(sides.begin(), sides.end(), shifts_px.begin(), [&](const SideColours& side) {
     return blur_px * side.Shift(view.tone());
   });
   return shifts_px;
