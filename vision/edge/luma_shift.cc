@@ -51,8 +51,8 @@ double LumaShift(const Vector3d& from, const Vector3d& to, const ToneCurve& tone
     product += (share - seen) * slope;
     squares += slope * slope;
   }
-  constexpr double kPerSlope = 2.5066282746310002;  // sqrt(2 pi): of the normal distribution
-  return std::clamp(kPerSlope * product / squares, -kMost, kMost);
+  const double per_slope = std::sqrt(2 * std::numbers::pi);  // of the normal distribution
+  return std::clamp(per_slope * product / squares, -kMost, kMost);
 }
 
 }  // namespace bladecurve

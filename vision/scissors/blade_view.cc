@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -171,7 +173,10 @@ const ReducedColours& BladeView::Reduced() const {
 bool BladeView::ShowsColourAtTop() const {
   constexpr double kTop = 1.0 / 64;  // of the picture: a quarter of a millisecond of 12 MP
   constexpr int kLongSide = 1000;    // px
-  return ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone());
+  std::call_once(top_seen_, [this] {
+    coloured_at_top_ = ShowsColour(photo_.DecodeTopColour(kTop, kLongSide), tone());
+  });
+  return coloured_at_top_;
 }
 
 double InlyingShare(const LocatedEdge& edge) {
@@ -183,6 +188,13 @@ double InlyingShare(const LocatedEdge& edge) {
 
 double Information(const LocatedEdge& edge) {
   return InlyingShare(edge) / std::pow(TotalSigma(edge), 2);
+}
+
+std::size_t LostPoints(const LocatedEdge& edge) {
+  const auto last = std::find_if(edge.points.rbegin(),
+                                 edge.points.rend(),
+                                 [](const LocatedEdgePoint& point) { return point.inlier; });
+  return static_cast<std::size_t>(std::distance(edge.points.rbegin(), last));
 }
 
 std::vector<Vector2d> TrendOf(const LocatedEdge& edge) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <mutex>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -103,7 +104,8 @@ class BladeView {
   const ScaleResult& scale_;
   const Scene& scene_;
   EdgeOptions options_;
-  mutable std::once_flag decoded_, halved_;
+  mutable std::once_flag decoded_, halved_, top_seen_;
+  mutable bool coloured_at_top_ = false;
   mutable PicturePart colours_;
   mutable ReducedColours reduced_;
   mutable std::array<Side, 2> outer_sides_, shank_sides_;  // the left blade's first
@@ -114,6 +116,9 @@ class BladeView {
 
 // Share of the points that count.
 [[nodiscard]] double InlyingShare(const LocatedEdge& edge);
+
+// How many points lie beyond the last one that counts, towards the tip.
+[[nodiscard]] std::size_t LostPoints(const LocatedEdge& edge);
 
 [[nodiscard]] std::vector<Eigen::Vector2d> TrendOf(const LocatedEdge& edge);
 

@@ -92,9 +92,8 @@ std::vector<LocatedEdgePoint> Beyond(const Vector2d& from_px, const LocatedBlade
 
 // How far before its end an edge is lost: from its last point that counts on.
 double LostPx(const LocatedEdge& edge) {
-  const auto last = std::find_if(
-      edge.points.rbegin(), edge.points.rend(), [](const auto& point) { return point.inlier; });
-  return last == edge.points.rend() ? 0 : (edge.points.back().trend_px - last->trend_px).norm();
+  const std::size_t seen = edge.points.size() - LostPoints(edge);
+  return seen == 0 ? 0 : (edge.points.back().trend_px - edge.points[seen - 1].trend_px).norm();
 }
 
 // Where the tip's arc leaves the edge in colours that part blade and ground much better than grey

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/lost_end.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -19,12 +17,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Of an edge's points, those beyond the last one that counts.
+// Of an edge's points.
 double LostShare(const LocatedEdge& edge) {
-  const auto last = std::find_if(
-      edge.points.rbegin(), edge.points.rend(), [](const auto& point) { return point.inlier; });
-  return static_cast<double>(std::distance(edge.points.rbegin(), last)) /
-         static_cast<double>(edge.points.size());
+  return static_cast<double>(LostPoints(edge)) / static_cast<double>(edge.points.size());
+}
+
+// A tip alone smears fewer.
+bool IsLost(const LocatedEdge& edge) {
+  constexpr double kLost = 0.08;
+  return LostShare(edge) >= kLost;
 }
 
 // The line about which the proximal parts of the edges mirror each other, from where they cross.
@@ -64,11 +65,10 @@ void FindLostEnd(const BladeView& view,
                  const LocatedBlade& other,
                  const MirrorLine& line,
                  LocatedBlade* blade) {
-  constexpr double kLost = 0.08, kHardlyLost = 0.1;  // of the points; a tip alone smears fewer
-  constexpr double kLess = 0.5;                      // of what was lost before
-  constexpr double kNoVaguer = 0.3;                  // of what was known; ends are seen less well
-  const double lost = LostShare(blade->edge);
-  if (lost < kLost || LostShare(other.edge) > kHardlyLost || IsDoubtful(other.edge)) return;
+  constexpr double kHardlyLost = 0.1;  // of the points
+  constexpr double kLess = 0.5;        // of what was lost before
+  constexpr double kNoVaguer = 0.3;    // of what was known; ends are seen less well
+  if (!IsLost(blade->edge) || LostShare(other.edge) > kHardlyLost || IsDoubtful(other.edge)) return;
   const auto guess = GuessBeyond(*blade, other, line);
   if (!guess) return;
   auto found = UnlessRefused([&] {
@@ -76,7 +76,8 @@ void FindLostEnd(const BladeView& view,
     TrimToFree(view, &again);
     return again;
   });
-  const bool is_whole = found && IsClear(found->edge) && LostShare(found->edge) < kLess * lost &&
+  const bool is_whole = found && IsClear(found->edge) &&
+                        LostShare(found->edge) < kLess * LostShare(blade->edge) &&
                         Information(found->edge) > kNoVaguer * Information(blade->edge);
   if (!is_whole) return;
   KeepRival(blade->edge, &found->edge);
@@ -86,6 +87,7 @@ void FindLostEnd(const BladeView& view,
 }  // namespace
 
 void FindLostEnds(const BladeView& view, Blades* blades) {
+  if (!IsLost(blades->upper.edge) && !IsLost(blades->lower.edge)) return;
   const PlaneMap map = view.scale().map.value_or(PlaneMap::Uniform(1, 0, kPixelsSource));
   const MirrorLine line = LineBetweenEdges(map, *blades);
   for (const bool upper : {true, false}) {
