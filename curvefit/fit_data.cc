@@ -164,6 +164,21 @@ void SetLowerEnd(const EdgePoints& photo, double length_mm, PhotoData& data) {
   data.lower_end_root = Root(photo.lower_end.covariance_mm2, length_mm, kSmallestEdgeSigma);
 }
 
+// Across an edge where it ends, out of the upper or the lower blade: its direction over the last
+// two quarters, continued. Across the ray where no edge is known.
+Eigen::Vector2d OutOfBlade(const EdgeSamples& edge, const Eigen::Vector2d& end, bool is_upper) {
+  Eigen::Vector2d along = end.normalized();
+  if (!edge.empty()) {
+    const size_t last_at = edge.points.size() - 1;
+    const Eigen::Vector2d& half = edge.points[last_at / 2];
+    const Eigen::Vector2d& three_quarters = edge.points[last_at * 3 / 4];
+    const Eigen::Vector2d before = (three_quarters - half).normalized();
+    const Eigen::Vector2d last = (end - three_quarters).normalized();
+    along = (1.5 * last - 0.5 * before).normalized();
+  }
+  return is_upper ? Eigen::Vector2d(along.y(), -along.x()) : Eigen::Vector2d(-along.y(), along.x());
+}
+
 // theta_rad that came from the ends says nothing beyond them, unless the lower end is missing.
 void SetTheta(const EdgePoints& photo, PhotoData& data) {
   data.theta_given = photo.theta_given;
@@ -208,6 +223,9 @@ PhotoData Prepare(const EdgePoints& photo, double length_mm) {
     const double angle = data.start[kLowerAngle];
     data.lower = ScaledEdge(photo, photo.lower, {std::cos(angle), std::sin(angle)}, length_mm);
   }
+  data.upper_end_out = OutOfBlade(data.upper, data.upper_end, true);
+  data.lower_end_out =
+      OutOfBlade(data.lower, data.lower_end.value_or(Eigen::Vector2d::UnitX()), false);
   data.pivot_whitener = Root(photo.pivot.covariance_mm2, length_mm, kSmallestSigma).inverse();
   data.scale_weight = WeightOf(photo.scale_relative_sigma);
   data.offset_weight =

@@ -40,8 +40,9 @@ struct PhotoData {
   Eigen::Vector2d upper_end;
   Eigen::Matrix2d upper_end_whitener;
   std::optional<Eigen::Vector2d> lower_end;
-  Eigen::Matrix2d lower_end_root;  // times its transpose: the covariance
-  std::optional<double> theta;     // rad; observed by other means than the ends
+  Eigen::Vector2d upper_end_out, lower_end_out;  // unit, across the edges there, out of the blades
+  Eigen::Matrix2d lower_end_root;                // times its transpose: the covariance
+  std::optional<double> theta;                   // rad; observed by other means than the ends
   double theta_weight = 0;
   bool theta_given = false;
   double view_theta_sigma = 0;  // rad; of theta, where it is not given

@@ -21,14 +21,15 @@ struct PoseObservations {
   }
 
   // The upper end lies at (reach, -reach tan(zero/2)) of its blade's frame, and is seen as far out
-  // of the blade as the edge.
+  // of the blade as the edge, across the edge: across the ray, edge and end would be seen to part.
   template <typename T>
   Vector2<T> UpperEnd(const T& reach, const T& zero, const T* pose) const {
     using std::cos, std::sin, std::tan;
     const T c = cos(pose[kUpperAngle]), s = sin(pose[kUpperAngle]);
-    const T v = -reach * tan(T(0.5) * zero) - pose[kOffset];
+    const T v = -reach * tan(T(0.5) * zero);
+    const Vector2<T> end(c * reach - s * v, s * reach + c * v);
     return photo.upper_end_whitener.cast<T>() *
-           (FromPivot(photo.upper_end, pose) - Vector2<T>(c * reach - s * v, s * reach + c * v));
+           (FromPivot(photo.upper_end, pose) - end - pose[kOffset] * photo.upper_end_out.cast<T>());
   }
 
   // How far the lower end lies from its ray, wherever on it: the blades may differ in length. In
@@ -41,7 +42,9 @@ struct PoseObservations {
     const T ray = pose[kLowerAngle] + T(0.5) * zero;
     const Vector2<T> across(-sin(ray), cos(ray));
     const Vector2<T> spread = photo.lower_end_root.transpose().cast<T>() * across;
-    const T off_ray = FromPivot(*photo.lower_end, pose).dot(across) - pose[kOffset];
+    const Vector2<T> end =
+        FromPivot(*photo.lower_end, pose) - pose[kOffset] * photo.lower_end_out.cast<T>();
+    const T off_ray = end.dot(across);
     return off_ray / sqrt(spread.squaredNorm());
   }
 
