@@ -722,6 +722,20 @@ TEST(ShanksCarryCatches, FindsPlainlyHighOnesAtDistancesThatDiffer) {
   }
 }
 
+// Grips on slender shanks rise as catches do, and bend outwards from there.
+TEST(ShanksCarryCatches, TakesNoGripsForCatches) {
+  for (const bool catches : {false, true}) {
+    const DrawnShanks shanks([&](int, cv::Mat& mask, const auto& at) {
+      cv::line(mask, at(0, 180), at(72, 325), 255, 7);
+      cv::line(mask, at(66, 313), at(120, 372), 255, 18);
+      cv::circle(mask, at(138, 405), 34, 255, 8);
+      if (catches) cv::line(mask, at(50, 280), at(32, 290), 255, 12);
+      return at(150, 438);
+    });
+    EXPECT_EQ(shanks.CarryCatches(), catches);
+  }
+}
+
 // Blades of another pair that lies on the first one, joint on joint.
 TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   constexpr double kBladePx = 200, kShankPx = 240;
