@@ -40,7 +40,7 @@ LocatedBlade BladeOnRay(bool on_left, double end_px, double sigma_px, bool arc_s
   blade.used = blade.edge.points;
   blade.end.point_px = PivotSeen().point_px + end_px * along;
   blade.end.along_sigma_px = sigma_px;
-  blade.end.arc_seen = arc_seen;
+  blade.end.arc_seen = blade.end.certain = arc_seen;
   blade.end.evidence = arc_seen ? 100 : 0;
   return blade;
 }
@@ -184,6 +184,21 @@ TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &free);
   EXPECT_NEAR(LengthOf(free.upper), kLength, kExact);
   EXPECT_NEAR(LengthOf(free.lower), kLength, kExact);
+}
+
+// Grain ends on arcs of few lines, on both blades at about the same length by chance; seen freely,
+// blades may differ by much.
+TEST(AgreeOnEnds, TakesNoPairOfUncertainArcsInAViewOfUnknownTilt) {
+  const auto with_rival = [](bool on_left) {
+    LocatedBlade blade = BladeOnRay(on_left, kLength, 5, false);
+    blade.rival_ends = {BladeOnRay(on_left, kLength - (on_left ? 25 : 30), 1, true).end};
+    blade.rival_ends[0].certain = false;
+    return blade;
+  };
+  Blades blades{with_rival(true), with_rival(false)};
+  AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
+  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
 }
 
 // A line on one blade ends like a tip, clearer than it; the other blade has its end elsewhere.

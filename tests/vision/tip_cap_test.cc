@@ -314,6 +314,24 @@ TEST(FindDistalEnds, TakesNoArcForTheTipWhereTheStepGoesOn) {
   EXPECT_NEAR(ends.rivals[0].point_px.x(), center.x, 3);
 }
 
+// A blade that hardly parts from white ground has grain like that; few lines end on it.
+TEST(FindDistalEnds, TakesNoFleckForTheTipWhereTheEdgeDoesNotStandOut) {
+  constexpr double kRadius = 8;
+  const Vector2d center(kTip - 14, kEdge - kRadius);
+  cv::Mat picture(160, 340, CV_8UC1, cv::Scalar(200));
+  picture.forEach<uchar>([&](uchar& value, const int* at) {
+    const double depth = kEdge - at[0];
+    const Vector2d from_center = Vector2d(at[1], at[0]) - center;
+    if (depth > 1 && depth < 4 && from_center.x() > 0 && from_center.x() < 16 &&
+        from_center.norm() > kRadius)
+      value = 150;
+  });
+  cv::GaussianBlur(picture, picture, {}, 0.8);
+  const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), {kSearch, 0.05}).likely;
+  EXPECT_FALSE(end.arc_seen);
+  EXPECT_GT(end.along_sigma_px, 4);
+}
+
 // A soft or a hard shadow of the tip lies further on than the tip itself.
 TEST(FindDistalEnds, KnowsTheTipFromTheArcOfItsShadow) {
   constexpr double kRadius = 8, kShadowPx = 20, kAlong = 2.5;

@@ -110,6 +110,21 @@ DistalEnd FindBend(const std::vector<Vector2d>& edge, double sigma_px) {
   return end;
 }
 
+constexpr int kSomeLines = 8;
+
+// So many lines do not end on an arc by chance, nor do fewer on one that is as round as tips are.
+bool IsCertain(const TipCap& cap) {
+  constexpr int kMany = 12;        // lines
+  constexpr double kRound = 0.15;  // px of scatter
+  return cap.seen >= kMany || (cap.seen >= kSomeLines && cap.scatter_px < kRound);
+}
+
+// Nor do some on one across which light changes as much as across the edge.
+bool IsPlain(const TipCap& cap, double edge_step) {
+  constexpr double kAsMuch = 0.7;  // of the edge's step
+  return cap.seen >= kSomeLines && std::abs(cap.step) > kAsMuch * std::abs(edge_step);
+}
+
 // Where the tip's arc leaves the edge.
 DistalEnd EndAtCap(const std::vector<Vector2d>& edge, const TipCap& cap, double along_sigma_px) {
   const Vector2d along = AlongChord(edge);
@@ -125,6 +140,7 @@ DistalEnd EndAtSeenCap(const std::vector<Vector2d>& edge, const TipCap& cap, dou
   DistalEnd end =
       EndAtCap(edge, cap, std::hypot(0.5, std::hypot(cap.scatter_px, 0.25 * cap.radius_px)));
   end.arc_seen = true;
+  end.certain = IsCertain(cap) || IsPlain(cap, edge_step);
   end.evidence = cap.step * edge_step < 0 && !cap.in_shadow ? 0 : cap.Evidence();
   return end;
 }
@@ -153,16 +169,11 @@ DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
 }
 
-// So many lines do not end on an arc by chance, nor do fewer on one that is as round as tips are.
-bool IsCertain(const TipCap& cap) {
-  constexpr int kMany = 12, kSome = 8;  // lines
-  constexpr double kRound = 0.15;       // px of scatter
-  return cap.seen >= kMany || (cap.seen >= kSome && cap.scatter_px < kRound);
-}
-
-// Whether light changes so much less across an arc than across the edge that it is texture's.
+// Whether light changes so much less across an arc than across the edge that it is texture's, as
+// are arcs of few lines where the edge does not stand out.
 bool IsFaint(const TipCap& cap, double edge_step) {
   constexpr double kFaint = 0.15;  // slender tips reach 0.2
+  if (edge_step == 0) return !IsCertain(cap);
   return std::abs(cap.step) < kFaint * std::abs(edge_step);
 }
 

@@ -20,6 +20,7 @@ struct DistalEnd {
   double across_sigma_px = 0;  // across it, beside that of the edge's points
   bool arc_seen = false;       // the tip's arc is seen to leave the edge there
   double evidence = 0;         // of the arc, TipCap::Evidence
+  bool certain = false;        // no arc of so many lines, as round or as plain as that, is chance
 };
 
 struct DistalEnds {

@@ -197,7 +197,8 @@ bool ShorterOneFades(const EndComparison& both, const Blades& blades) {
 void ChooseAlikeEnds(const ScaleResult& scale, const Pivot& pivot, Blades* blades) {
   const auto evidence = [&](const DistalEnd& upper, const DistalEnd& lower) {
     const EndComparison both = Compare(scale, pivot, *blades, upper, lower);
-    const bool alike = both.Outwards() && !both.Contradicts();
+    const bool alike =
+        both.Outwards() && !both.Contradicts() && (scale.sheet || upper.certain || lower.certain);
     return alike ? both.Likeness() * (upper.evidence + lower.evidence) : 0;
   };
   const DistalEnd upper = blades->upper.end, lower = blades->lower.end;
