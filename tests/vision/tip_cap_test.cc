@@ -324,7 +324,7 @@ TEST(FindDistalEnds, TakesNoFleckForTheTipWhereTheEdgeDoesNotStandOut) {
     const Vector2d from_center = Vector2d(at[1], at[0]) - center;
     if (depth > 1 && depth < 4 && from_center.x() > 0 && from_center.x() < 16 &&
         from_center.norm() > kRadius)
-      value = 150;
+      value = 188;
   });
   cv::GaussianBlur(picture, picture, {}, 0.8);
   const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), {kSearch, 0.05}).likely;

@@ -169,11 +169,12 @@ DistalEnd EndWithoutCap(const std::vector<Vector2d>& edge,
   return EndAtCap(edge, usual, std::hypot(usual_sigma_px, 0.5 * unseen_px));
 }
 
-// Whether light changes so much less across an arc than across the edge that it is texture's, as
-// are arcs of few lines where the edge does not stand out.
+// Whether light changes so much less across an arc than across the edge that it is texture's. Where
+// the edge does not stand out, texture's are faint arcs of few lines.
 bool IsFaint(const TipCap& cap, double edge_step) {
-  constexpr double kFaint = 0.15;  // slender tips reach 0.2
-  if (edge_step == 0) return !IsCertain(cap);
+  constexpr double kFaint = 0.15;    // slender tips reach 0.2
+  constexpr double kFaintGrey = 12;  // twice what stands out from noise
+  if (edge_step == 0) return std::abs(cap.step) < kFaintGrey && !IsCertain(cap);
   return std::abs(cap.step) < kFaint * std::abs(edge_step);
 }
 
