@@ -322,9 +322,9 @@ TEST(FindDistalEnds, TakesNoFleckForTheTipWhereTheEdgeDoesNotStandOut) {
   picture.forEach<uchar>([&](uchar& value, const int* at) {
     const double depth = kEdge - at[0];
     const Vector2d from_center = Vector2d(at[1], at[0]) - center;
-    if (depth > 1 && depth < 4 && from_center.x() > 0 && from_center.x() < 16 &&
+    if (depth > 1 && depth < 5 && from_center.x() > 0 && from_center.x() < 16 &&
         from_center.norm() > kRadius)
-      value = 188;
+      value = 182;
   });
   cv::GaussianBlur(picture, picture, {}, 0.8);
   const DistalEnd end = FindDistalEnds(picture, EdgeAlong(kEdge), {kSearch, 0.05}).likely;
