@@ -552,6 +552,21 @@ TEST(SceneFinder, TakesTheWholePairBesideOneWhoseBladesRunOut) {
   EXPECT_EQ(ReasonFor(two), "");
 }
 
+// Be it by the frame, or as they lie under a card.
+TEST(MeasurePhoto, FindsScissorsWhoseHandlesAreHiddenRightBehindTheJoint) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
+  const double blade_px = photo.truth.upper.end_px.x() - pivot.x();
+  const int behind = static_cast<int>(pivot.x() - 0.12 * blade_px);
+  EXPECT_EQ(ReasonFor(photo.bgr.colRange(behind, photo.bgr.cols).clone()), "");
+  constexpr int kCardPx = 240;
+  cv::Mat under_card = photo.bgr.clone();
+  const cv::Rect card(
+      behind - kCardPx, static_cast<int>(pivot.y()) - kCardPx / 2, kCardPx, kCardPx);
+  under_card(card) = cv::Scalar(120, 60, 30);
+  EXPECT_EQ(ReasonFor(under_card), "");
+}
+
 // In the sun each blade lies beside its shadow: four limbs.
 TEST(SceneFinder, TakesNoShadowOfABladeForTheOtherBlade) {
   constexpr std::uint64_t kSeed = 12000194;  // gold blades 20 degrees open on wood

@@ -15,13 +15,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-// The two inlets on the axis of the scissors: the gap between the blades, and the one between the
-// shanks.
-struct Crossing {
-  const Inlet* gap;
-  const Inlet* back;
-};
-
 struct GradePart {
   double grade;
   const char* doubt;
@@ -57,9 +50,9 @@ struct Ends {
 
 // Clockwise: back, shank of the second blade, first blade, gap, second blade, shank of the first,
 // back. std::nullopt where a limb has no length.
-std::optional<Ends> FindEnds(const Outline& outline, const Crossing& at) {
+std::optional<Ends> FindEnds(const Outline& outline, const Crotches& at) {
   constexpr double kShortest = 8;  // px, of a blade
-  const int gap = at.gap->far, back = at.back->far;
+  const int gap = at.blades, back = at.shanks;
   const Vector2d crotch = outline.At(gap), shank_crotch = outline.At(back);
   const Vector2d axis = (crotch - shank_crotch).normalized();
   Ends ends;
@@ -202,12 +195,12 @@ std::vector<Vector2d> ShankBehind(const std::vector<Vector2d>& arc,
 }
 
 void DescribeBlades(const Silhouette& silhouette,
-                    const Crossing& at,
+                    const Crotches& at,
                     const Ends& ends,
                     BladePair* pair) {
   const Outline outline(silhouette.contour);
   const Vector2d axis = (pair->crotch - *pair->shank_crotch).normalized();
-  std::vector<Vector2d> inner_first = outline.Arc(ends.tip_first_at, at.gap->far);
+  std::vector<Vector2d> inner_first = outline.Arc(ends.tip_first_at, at.blades);
   std::reverse(inner_first.begin(), inner_first.end());
   std::vector<Vector2d> outer_first = outline.Arc(ends.shank_second_at, ends.tip_first_at);
   std::reverse(outer_first.begin(), outer_first.end());
@@ -217,22 +210,47 @@ void DescribeBlades(const Silhouette& silhouette,
   pair->first = DescribeBlade(
       silhouette, std::move(inner_first), AheadOf(std::move(outer_first), pair->crotch, axis));
   pair->second = DescribeBlade(silhouette,
-                               outline.Arc(at.gap->far, ends.tip_second_at),
+                               outline.Arc(at.blades, ends.tip_second_at),
                                AheadOf(std::move(outer_second), pair->crotch, axis));
   pair->first.shank = std::move(shank_first);
   pair->second.shank = std::move(shank_second);
 }
 
-std::optional<BladePair> PairAt(const Silhouette& silhouette,
-                                const cv::Mat& hidden,
-                                const Crossing& at) {
+// The deepest inlets, in the order of the contour.
+void KeepDeepest(std::size_t most, std::vector<Inlet>* inlets) {
+  if (inlets->size() <= most) return;
+  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
+    return a.depth > b.depth;
+  });
+  inlets->resize(most);
+  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
+    return a.start < b.start;
+  });
+}
+
+}  // namespace
+
+double Grade(double value, double good, double bad) {
+  return std::clamp((bad - value) / (bad - good), 0.0, 1.0);
+}
+
+void ApplyGrade(double grade, const char* doubt, BladePair* pair) {
+  pair->quality *= grade;
+  if (grade >= pair->worst_grade) return;
+  pair->worst_grade = grade;
+  pair->doubt = doubt;
+}
+
+std::optional<BladePair> FindBladePairAt(const Silhouette& silhouette,
+                                         const cv::Mat& hidden,
+                                         const Crotches& at) {
   const Outline outline(silhouette.contour);
   const std::optional<Ends> ends = FindEnds(outline, at);
   if (!ends) return std::nullopt;
-  const int back = at.back->far;
+  const int back = at.shanks;
   BladePair pair;
   pair.quality = 1;
-  pair.crotch = outline.At(at.gap->far);
+  pair.crotch = outline.At(at.blades);
   pair.shank_crotch = outline.At(back);
   pair.shank_first = ends->shank_first;
   pair.shank_second = ends->shank_second;
@@ -261,31 +279,6 @@ std::optional<BladePair> PairAt(const Silhouette& silhouette,
   return pair;
 }
 
-// The deepest inlets, in the order of the contour.
-void KeepDeepest(std::size_t most, std::vector<Inlet>* inlets) {
-  if (inlets->size() <= most) return;
-  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
-    return a.depth > b.depth;
-  });
-  inlets->resize(most);
-  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
-    return a.start < b.start;
-  });
-}
-
-}  // namespace
-
-double Grade(double value, double good, double bad) {
-  return std::clamp((bad - value) / (bad - good), 0.0, 1.0);
-}
-
-void ApplyGrade(double grade, const char* doubt, BladePair* pair) {
-  pair->quality *= grade;
-  if (grade >= pair->worst_grade) return;
-  pair->worst_grade = grade;
-  pair->doubt = doubt;
-}
-
 std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Mat& hidden) {
   std::vector<Inlet> inlets = FindInlets(silhouette.contour);
   KeepDeepest(8, &inlets);
@@ -294,7 +287,8 @@ std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Ma
   for (std::size_t gap = 0; gap < n; ++gap) {
     for (std::size_t back = 0; back < n; ++back) {
       if (gap == back) continue;
-      std::optional<BladePair> pair = PairAt(silhouette, hidden, {&inlets[gap], &inlets[back]});
+      std::optional<BladePair> pair =
+          FindBladePairAt(silhouette, hidden, {inlets[gap].far, inlets[back].far});
       if (pair) pairs.push_back(std::move(*pair));
     }
   }

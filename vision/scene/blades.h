@@ -34,9 +34,20 @@ struct BladePair {
 // Lowers a pair's quality to so much of it, and says why if nothing lowered it more.
 void ApplyGrade(double grade, const char* doubt, BladePair* pair);
 
+// The two concavities on the axis of the scissors, as indices into the contour.
+struct Crotches {
+  int blades = 0, shanks = 0;
+};
+
+// The pair with its crotches there; std::nullopt where there is nothing like it. `hidden` (CV_8UC1,
+// may be empty) is non-zero where something covers what goes on: a shank that ends there is cut
+// off, not short.
+[[nodiscard]] std::optional<BladePair> FindBladePairAt(const Silhouette& silhouette,
+                                                       const cv::Mat& hidden,
+                                                       const Crotches& at);
+
 // All gaps of the silhouette that might lie between two blades, the likeliest first; empty if none
-// does. `hidden` (CV_8UC1, may be empty) is non-zero where something covers what goes on: a shank
-// that ends there is cut off, not short.
+// does.
 [[nodiscard]] std::vector<BladePair> FindBladePairs(const Silhouette& silhouette,
                                                     const cv::Mat& hidden);
 

@@ -52,17 +52,6 @@ void DescribeSide(const std::vector<Vector2d>& side, BladeContour* blade) {
       std::sqrt((offsets - terms * k).squaredNorm() / static_cast<double>(side.size()));
 }
 
-// Whether any of the points lies at the frame, or where something hides what goes on (`hidden`, may
-// be empty).
-bool RunsOutOfSight(const std::vector<Vector2d>& points,
-                    const cv::Mat& hidden,
-                    const cv::Size& size) {
-  const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
-  return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
-    return !inner.contains(NearestPixel(p)) || (!hidden.empty() && IsSetNear(hidden, p));
-  });
-}
-
 // Of a shank half way along, beside whatever lies on it there: a label.
 double WidthHalfWay(const cv::Mat& filled, const Vector2d& from, const Vector2d& to) {
   constexpr double kUncovered = 1.8;  // times the width elsewhere; shanks taper less
@@ -74,6 +63,15 @@ double WidthHalfWay(const cv::Mat& filled, const Vector2d& from, const Vector2d&
 }
 
 }  // namespace
+
+bool RunsOutOfSight(const std::vector<Vector2d>& points,
+                    const cv::Mat& hidden,
+                    const cv::Size& size) {
+  const cv::Rect inner(2, 2, size.width - 4, size.height - 4);
+  return std::any_of(points.begin(), points.end(), [&](const Vector2d& p) {
+    return !inner.contains(NearestPixel(p)) || (!hidden.empty() && IsSetNear(hidden, p));
+  });
+}
 
 std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
   // Shallower ones are ragged borders and the waists of rings.

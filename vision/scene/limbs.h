@@ -67,6 +67,12 @@ class Outline {
 // The inlets that are too deep for ragged borders and the waists of rings, in contour order.
 [[nodiscard]] std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour);
 
+// Whether any of the points lies at the frame, or where something hides what goes on (`hidden`, may
+// be empty).
+[[nodiscard]] bool RunsOutOfSight(const std::vector<Eigen::Vector2d>& points,
+                                  const cv::Mat& hidden,
+                                  const cv::Size& size);
+
 // Which way along an outline.
 enum class Way { kOn, kBack };
 

@@ -17,6 +17,7 @@
 #include "vision/image/robust_statistics.h"
 #include "vision/scene/beyond_tips.h"
 #include "vision/scene/closed_shape.h"
+#include "vision/scene/covered_handles.h"
 #include "vision/scene/silhouette.h"
 #include "vision/scene/touching_handles.h"
 
@@ -189,17 +190,17 @@ bool AgreesWithHints(const BladePair& pair, const ScaledImage& at, const StoredH
   return !hints.pivot_px || LiesOnJoint(at.SmallFromFull(*hints.pivot_px), pair);
 }
 
-// Of a thing in the mask, the likeliest pair that is worth keeping and agrees with the hints.
-// `contradicting`: as of a rung.
-std::optional<Candidate> LikeliestIn(const Silhouette& silhouette,
-                                     const cv::Mat& mask,
-                                     const Candidate& like,
-                                     const cv::Mat& hidden,
-                                     const StoredHints& hints,
-                                     double* contradicting) {
+// Of the pairs of a silhouette in the mask of `like`, the likeliest first, the first that is worth
+// keeping and agrees with the hints. `contradicting`: as of a rung.
+std::optional<Candidate> FirstOf(std::vector<BladePair> pairs,
+                                 const Silhouette& silhouette,
+                                 const Candidate& like,
+                                 const cv::Mat& hidden,
+                                 const StoredHints& hints,
+                                 double* contradicting) {
   constexpr double kWorthKeeping = 0.2;  // what clutter reaches
-  for (BladePair& pair : FindBladePairs(silhouette, hidden)) {
-    if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(mask, silhouette, &pair);
+  for (BladePair& pair : pairs) {
+    if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(like.mask, silhouette, &pair);
     if (pair.quality < kWorthKeeping) continue;
     if (!AgreesWithHints(pair, *like.at, hints)) {
       *contradicting = std::max(*contradicting, pair.quality);
@@ -211,11 +212,12 @@ std::optional<Candidate> LikeliestIn(const Silhouette& silhouette,
     if (!like.outlined) DoubtSoftEdges(&candidate);
     DoubtEdgesOfHidden(hidden, &candidate);
     if (!like.patterned) DoubtShiningGap(&candidate);
-    candidate.mask = mask;
     return candidate;
   }
   return std::nullopt;
 }
+
+constexpr int kMostThings = 4;  // a ruler, a card, a label, and the scissors
 
 // Fills in `agreeing`.
 void CountAgreeing(std::vector<Candidate>* candidates) {
@@ -244,20 +246,49 @@ Rung SeenIn(const cv::Mat& mask,
             const Candidate& like,
             const cv::Mat& hidden,
             const StoredHints& hints) {
-  constexpr int kMostThings = 4;  // a ruler, a card, a label, and the scissors
   constexpr double kPlainlyOpen = 0.8;
+  Candidate in_mask = like;
+  in_mask.mask = mask;
+  const auto first_of = [&](const Silhouette& silhouette, double* contradicting) {
+    return FirstOf(
+        FindBladePairs(silhouette, hidden), silhouette, in_mask, hidden, hints, contradicting);
+  };
   Rung seen;
+  double most = 0;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
-    std::optional<Candidate> candidate =
-        LikeliestIn(silhouette, mask, like, hidden, hints, &seen.contradicting);
+    std::optional<Candidate> candidate = first_of(silhouette, &seen.contradicting);
     const double quality = candidate ? candidate->pair.quality : 0;
+    most = std::max(most, quality);
     if (candidate) seen.candidates.push_back(*std::move(candidate));
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
     if (quality >= kAcceptedQuality || like.outlined) continue;
     for (const Silhouette& parted : WithHandlesParted(mask, silhouette)) {
       double contradicting = 0;  // says nothing: few of them are scissors
-      auto touching = LikeliestIn(parted, mask, like, hidden, hints, &contradicting);
+      auto touching = first_of(parted, &contradicting);
       if (touching) seen.touching.push_back(*std::move(touching));
+    }
+  }
+  if (most < kAcceptedQuality && !like.outlined) seen.unresolved.push_back(std::move(in_mask));
+  return seen;
+}
+
+Rung SeenWithoutHandles(const Candidate& unresolved,
+                        const cv::Mat& hidden,
+                        const StoredHints& hints) {
+  constexpr double kDoubtful = 0.7;
+  Rung seen;
+  for (const Silhouette& silhouette : FindSilhouettes(unresolved.mask, kMostThings)) {
+    for (const WithoutHandles& cut : CutOffHandles(silhouette, hidden)) {
+      std::optional<BladePair> pair = FindBladePairAt(cut.silhouette, cut.hidden, cut.crotches);
+      if (!pair) continue;
+      Candidate in_mask = unresolved;
+      in_mask.mask = unresolved.mask & cut.silhouette.filled;
+      double contradicting = 0;
+      auto candidate =
+          FirstOf({*std::move(pair)}, cut.silhouette, in_mask, hidden, hints, &contradicting);
+      if (!candidate) continue;
+      ApplyGrade(kDoubtful, "the handles are not seen", &candidate->pair);
+      seen.candidates.push_back(*std::move(candidate));
     }
   }
   return seen;
@@ -270,6 +301,7 @@ void Add(Rung seen, Rung* rung) {
   CountAgreeing(&rung->candidates);
   std::move(seen.touching.begin(), seen.touching.end(), std::back_inserter(rung->touching));
   CountAgreeing(&rung->touching);
+  std::move(seen.unresolved.begin(), seen.unresolved.end(), std::back_inserter(rung->unresolved));
 }
 
 }  // namespace bladecurve

@@ -44,6 +44,7 @@ struct Rung {
   std::vector<Candidate> candidates;
   // What else things show if their handles touch. A blade beside its shadow looks so, too.
   std::vector<Candidate> touching;
+  std::vector<Candidate> unresolved;  // masks in which no pair is likely, without pairs
   int closed = 0;            // masks in which something looks like closed scissors
   double contradicting = 0;  // quality of the likeliest pair that hints speak against
   cv::Mat distance;          // from the background, or how sharply it is walled in; CV_32FC1
@@ -55,6 +56,12 @@ struct Rung {
                           const Candidate& like,
                           const cv::Mat& hidden,
                           const StoredHints& hints);
+
+// What an unresolved mask shows if handles are left out (covered_handles.h). What is left tells
+// little: doubtful.
+[[nodiscard]] Rung SeenWithoutHandles(const Candidate& unresolved,
+                                      const cv::Mat& hidden,
+                                      const StoredHints& hints);
 
 // Adds what another mask of the same rung shows, and counts anew which candidates agree.
 void Add(Rung seen, Rung* rung);

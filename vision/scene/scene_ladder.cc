@@ -22,6 +22,7 @@ LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
   for (const Rung& rung : stage) {
     all->candidates.insert(all->candidates.end(), rung.candidates.begin(), rung.candidates.end());
     all->touching.insert(all->touching.end(), rung.touching.begin(), rung.touching.end());
+    all->unresolved.insert(all->unresolved.end(), rung.unresolved.begin(), rung.unresolved.end());
     all->closed = std::max(all->closed, rung.closed);
     all->contradicting = std::max(all->contradicting, rung.contradicting);
   }
@@ -82,6 +83,16 @@ std::vector<Rung> ColourRungs(const SceneView& view, const ColourPictures& colou
   return rungs;
 }
 
+Rung RungWithoutHandles(const SceneView& view, const std::vector<Candidate>& unresolved) {
+  Rung rung;
+  std::vector<Rung> seen = ParallelMap(static_cast<int>(unresolved.size()), [&](int i) {
+    const Candidate& mask = unresolved[static_cast<std::size_t>(i)];
+    return SeenWithoutHandles(mask, view.MarkerMask(*mask.at), view.hints);
+  });
+  for (Rung& mask : seen) Add(std::move(mask), &rung);
+  return rung;
+}
+
 const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
 
 }  // namespace
@@ -138,6 +149,17 @@ LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
       all.candidates = std::move(all.touching);
       touching.climbed = true;
       result = std::move(touching);
+    }
+  }
+  if (!ShowsWholeBlades(result)) {
+    Rung covered = RungWithoutHandles(looked->view, all.unresolved);
+    LadderResult without = Choose(covered.candidates);
+    constexpr int kAgreeing = 3;
+    if (ShowsWholeBlades(without) && without.best.agreeing >= kAgreeing) {
+      log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
+      all.candidates = std::move(covered.candidates);
+      without.climbed = true;
+      result = std::move(without);
     }
   }
   result.seen = std::move(all.candidates);

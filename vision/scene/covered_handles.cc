@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: 2026 The bladecurve authors
+// SPDX-License-Identifier: MIT
+#include "vision/scene/covered_handles.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+
+#include "vision/scene/limbs.h"
+
+namespace bladecurve {
+namespace {
+
+using Eigen::Vector2d;
+
+// What may be the gap between two blades, its `axis` a unit vector towards the tips.
+struct Gap {
+  Vector2d crotch, axis;
+  double blade_px = 0;
+};
+
+std::optional<Gap> GapOf(const Outline& outline, const Inlet& inlet) {
+  constexpr double kShortestPx = 16;
+  constexpr double kAlike = 0.5;    // shorter blade over longer one
+  constexpr double kWidest = -0.2;  // cosine; a blade and a shank part by more than blades do
+  Gap gap;
+  gap.crotch = outline.At(inlet.far);
+  const Vector2d first = outline.At(inlet.start) - gap.crotch;
+  const Vector2d second = outline.At(inlet.end) - gap.crotch;
+  gap.blade_px = std::max(first.norm(), second.norm());
+  const double shorter_px = std::min(first.norm(), second.norm());
+  if (gap.blade_px < kShortestPx || shorter_px < kAlike * gap.blade_px ||
+      first.dot(second) < kWidest * shorter_px * gap.blade_px)
+    return std::nullopt;
+  gap.axis = (first.normalized() + second.normalized()).normalized();
+  return gap;
+}
+
+// The joint behind a gap, up to where it is cut.
+struct Joint {
+  Vector2d end;  // the middle of the cut
+  double width_px = 0;
+};
+
+// std::nullopt where the thing ends there, parts into shanks, or goes on as narrow as it is.
+std::optional<Joint> JointBehind(const Silhouette& silhouette,
+                                 const cv::Mat& hidden,
+                                 const Gap& gap) {
+  constexpr double kWider = 1.4;     // times the narrowest: something else begins
+  constexpr double kFarthest = 0.9;  // of the blades
+  constexpr double kShortest = 0.5;  // of the width; a joint holds a screw
+  constexpr double kMarginPx = 2;    // before that
+  const Vector2d across(-gap.axis.y(), gap.axis.x());
+  Vector2d middle = gap.crotch;
+  double narrowest = gap.blade_px;
+  for (int way = 1; way < kFarthest * gap.blade_px; ++way) {
+    const Vector2d at = middle - gap.axis;
+    const std::vector<Run> runs = RunsAcross(silhouette.filled, at, across, gap.blade_px);
+    const auto run =
+        std::ranges::find_if(runs, [](const Run& each) { return each.from <= 0 && each.to >= 0; });
+    if (run == runs.end()) return std::nullopt;
+    const double width = run->to - run->from;
+    const std::vector<Vector2d> sides{at + run->from * across, at + run->to * across};
+    if (width > kWider * narrowest || RunsOutOfSight(sides, hidden, silhouette.filled.size())) {
+      if (way - kMarginPx < kShortest * narrowest) return std::nullopt;
+      return Joint{middle + kMarginPx * gap.axis, narrowest};
+    }
+    narrowest = std::min(narrowest, width);
+    middle = at + 0.5 * (run->from + run->to) * across;
+  }
+  return std::nullopt;
+}
+
+int NearestOf(const std::vector<cv::Point>& contour, const Vector2d& at) {
+  const auto off = [&](const cv::Point& p) { return (Vector2d(p.x, p.y) - at).squaredNorm(); };
+  return static_cast<int>(std::ranges::min_element(contour, {}, off) - contour.begin());
+}
+
+// Also of places out of the picture.
+cv::Point PointAt(const Vector2d& at) { return {cvRound(at.x()), cvRound(at.y())}; }
+
+std::optional<WithoutHandles> CutOff(const Silhouette& silhouette,
+                                     const cv::Mat& hidden,
+                                     const Gap& gap,
+                                     const Joint& joint) {
+  constexpr double kNotchWidth = 0.3;  // of the joint's
+  constexpr double kNotchPx = 4;
+  const Vector2d across(-gap.axis.y(), gap.axis.x());
+  const double far = silhouette.filled.cols + silhouette.filled.rows;
+  cv::Mat beyond = cv::Mat::zeros(silhouette.filled.size(), CV_8UC1);
+  const std::vector<cv::Point> half_plane{PointAt(joint.end + far * across),
+                                          PointAt(joint.end - far * across),
+                                          PointAt(joint.end - far * (across + gap.axis)),
+                                          PointAt(joint.end + far * (across - gap.axis))};
+  cv::fillConvexPoly(beyond, half_plane, 255);
+  const double half_width = 0.5 * kNotchWidth * joint.width_px;
+  const std::vector<cv::Point> notch{PointAt(joint.end + half_width * across),
+                                     PointAt(joint.end - half_width * across),
+                                     PointAt(joint.end + kNotchPx * gap.axis)};
+  cv::Mat left = silhouette.filled & ~beyond;
+  cv::fillConvexPoly(left, notch, 0);
+  std::vector<Silhouette> things = FindSilhouettes(left, 1);
+  if (things.empty()) return std::nullopt;
+  if (!hidden.empty()) beyond |= hidden;
+  const Crotches crotches{NearestOf(things.front().contour, gap.crotch),
+                          NearestOf(things.front().contour, joint.end + kNotchPx * gap.axis)};
+  return WithoutHandles{std::move(things.front()), std::move(beyond), crotches};
+}
+
+}  // namespace
+
+std::vector<WithoutHandles> CutOffHandles(const Silhouette& silhouette, const cv::Mat& hidden) {
+  constexpr std::size_t kMostGaps = 4;
+  const Outline outline(silhouette.contour);
+  std::vector<Inlet> inlets = FindInlets(silhouette.contour);
+  std::ranges::sort(inlets, std::greater{}, &Inlet::depth);
+  inlets.resize(std::min(inlets.size(), kMostGaps));
+  std::vector<WithoutHandles> cut;
+  for (const Inlet& inlet : inlets) {
+    const std::optional<Gap> gap = GapOf(outline, inlet);
+    if (!gap) continue;
+    const std::optional<Joint> joint = JointBehind(silhouette, hidden, *gap);
+    if (!joint) continue;
+    if (auto without = CutOff(silhouette, hidden, *gap, *joint)) cut.push_back(*std::move(without));
+  }
+  return cut;
+}
+
+}  // namespace bladecurve
