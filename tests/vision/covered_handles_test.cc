@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -53,6 +54,19 @@ TEST(CutOffHandles, CutsWhereTheJointRunsIntoAnotherThing) {
   EXPECT_EQ(cut[0].silhouette.filled.at<uchar>(60, 100), 0) << "the other thing is left out";
   EXPECT_NE(cut[0].hidden.at<uchar>(60, 100), 0);
   EXPECT_EQ(cut[0].hidden.at<uchar>(kRow, kCrotchX), 0);
+}
+
+// A ruler under the handles that goes on beside the blades: their gap is no inlet of the hull.
+TEST(CutOffHandles, FindsTheGapBesideAnotherThing) {
+  cv::Mat mask = Blades();
+  const std::vector<cv::Point> ruler{
+      {240, 300}, {20, 300}, {20, 20}, {600, 20}, {600, 110}, {240, 110}};
+  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{ruler}, 255);
+  const std::vector<WithoutHandles> cut = CutIn(mask);
+  EXPECT_TRUE(std::ranges::any_of(cut, [](const WithoutHandles& each) {
+    return (CrotchOfBlades(each) - Vector2d(kCrotchX, kRow)).norm() < 6 &&
+           (CrotchOfShanks(each) - Vector2d(248, kRow)).norm() < 8;
+  }));
 }
 
 TEST(CutOffHandles, CutsWhereTheFrameDoes) {

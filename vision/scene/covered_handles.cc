@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "vision/image/cross.h"
 #include "vision/scene/limbs.h"
 
 namespace bladecurve {
@@ -37,6 +38,50 @@ std::optional<Gap> GapOf(const Outline& outline, const Inlet& inlet) {
     return std::nullopt;
   gap.axis = (first.normalized() + second.normalized()).normalized();
   return gap;
+}
+
+// The place of the outline between two others that lies furthest to one side of the straight way
+// from one to the other: into the thing where there is an inlet, out of it where a limb ends.
+constexpr int kInto = 1, kOutOf = -1;
+int FurthestAside(const Outline& outline, int from, int to, int side) {
+  const Vector2d a = outline.At(from), way = outline.At(to) - a;
+  int best = from;
+  double furthest = 0;
+  for (int i = from; outline.Wrap(i - to) != 0; ++i) {
+    const double aside = side * Cross(way, outline.At(i) - a);
+    if (aside <= furthest) continue;
+    furthest = aside;
+    best = outline.Wrap(i);
+  }
+  return best;
+}
+
+// The deepest inlets; and where another thing hangs on the handles and goes on beside the blades,
+// so that the gap between these is no inlet of the hull, what lies beside the limb on either side
+// of an inlet.
+std::vector<Gap> GapsOf(const std::vector<cv::Point>& contour) {
+  constexpr std::size_t kMost = 4;
+  const Outline outline(contour);
+  std::vector<Gap> gaps;
+  const auto add = [&](int start, int far, int end) {
+    constexpr double kSamePx = 4;
+    const std::optional<Gap> gap = GapOf(outline, {start, far, end, 0});
+    const bool is_known = gap && std::ranges::any_of(gaps, [&](const Gap& known) {
+                            return (known.crotch - gap->crotch).norm() < kSamePx;
+                          });
+    if (gap && !is_known) gaps.push_back(*gap);
+  };
+  std::vector<Inlet> inlets = FindInlets(contour);
+  std::ranges::sort(inlets, std::greater{}, &Inlet::depth);
+  inlets.resize(std::min(inlets.size(), kMost));
+  for (const Inlet& inlet : inlets) {
+    add(inlet.start, inlet.far, inlet.end);
+    const int end_of_next = FurthestAside(outline, inlet.far, inlet.end, kOutOf);
+    add(end_of_next, FurthestAside(outline, end_of_next, inlet.end, kInto), inlet.end);
+    const int end_before = FurthestAside(outline, inlet.start, inlet.far, kOutOf);
+    add(inlet.start, FurthestAside(outline, inlet.start, end_before, kInto), end_before);
+  }
+  return gaps;
 }
 
 // The joint behind a gap, up to where it is cut.
@@ -102,29 +147,24 @@ std::optional<WithoutHandles> CutOff(const Silhouette& silhouette,
                                      PointAt(joint.end + kNotchPx * gap.axis)};
   cv::Mat left = silhouette.filled & ~beyond;
   cv::fillConvexPoly(left, notch, 0);
-  std::vector<Silhouette> things = FindSilhouettes(left, 1);
-  if (things.empty()) return std::nullopt;
+  constexpr int kMostThings = 3;  // what the handles lie on may reach beside the blades
+  const std::vector<Silhouette> things = FindSilhouettes(left, kMostThings);
+  const Silhouette* own = ThingAt(things, 0.5 * (gap.crotch + joint.end));
+  if (own == nullptr) return std::nullopt;
   if (!hidden.empty()) beyond |= hidden;
-  const Crotches crotches{NearestOf(things.front().contour, gap.crotch),
-                          NearestOf(things.front().contour, joint.end + kNotchPx * gap.axis)};
-  return WithoutHandles{std::move(things.front()), std::move(beyond), crotches};
+  const Crotches crotches{NearestOf(own->contour, gap.crotch),
+                          NearestOf(own->contour, joint.end + kNotchPx * gap.axis)};
+  return WithoutHandles{*own, std::move(beyond), crotches};
 }
 
 }  // namespace
 
 std::vector<WithoutHandles> CutOffHandles(const Silhouette& silhouette, const cv::Mat& hidden) {
-  constexpr std::size_t kMostGaps = 4;
-  const Outline outline(silhouette.contour);
-  std::vector<Inlet> inlets = FindInlets(silhouette.contour);
-  std::ranges::sort(inlets, std::greater{}, &Inlet::depth);
-  inlets.resize(std::min(inlets.size(), kMostGaps));
   std::vector<WithoutHandles> cut;
-  for (const Inlet& inlet : inlets) {
-    const std::optional<Gap> gap = GapOf(outline, inlet);
-    if (!gap) continue;
-    const std::optional<Joint> joint = JointBehind(silhouette, hidden, *gap);
+  for (const Gap& gap : GapsOf(silhouette.contour)) {
+    const std::optional<Joint> joint = JointBehind(silhouette, hidden, gap);
     if (!joint) continue;
-    if (auto without = CutOff(silhouette, hidden, *gap, *joint)) cut.push_back(*std::move(without));
+    if (auto without = CutOff(silhouette, hidden, gap, *joint)) cut.push_back(*std::move(without));
   }
   return cut;
 }
