@@ -79,6 +79,15 @@ TEST(CutOffHandles, CutsWhereTheFrameDoes) {
 // Their own shape says where the shanks are, or that these are the arms of tweezers.
 TEST(CutOffHandles, LeavesThingsThatEndBehindTheGap) { EXPECT_TRUE(CutIn(Blades()).empty()); }
 
+// As a cut by colour leaves them, which lost the slender shanks.
+TEST(CutOffHandles, CutsRightBehindThePivotWhereThatIsKnown) {
+  const Vector2d pivot(262, kRow);
+  const std::vector<WithoutHandles> cut =
+      CutOffHandles(FindSilhouettes(Blades(), 1).front(), {}, pivot);
+  ASSERT_EQ(cut.size(), 1);
+  EXPECT_LT(CrotchOfShanks(cut[0]).x(), pivot.x());
+}
+
 TEST(CutOffHandles, LeavesShanksThatAreSeen) {
   cv::Mat mask = Blades();
   for (const int side : {-1, 1})

@@ -93,11 +93,13 @@ struct Joint {
 // std::nullopt where the thing ends there, parts into shanks, or goes on as narrow as it is.
 std::optional<Joint> JointBehind(const Silhouette& silhouette,
                                  const cv::Mat& hidden,
-                                 const Gap& gap) {
-  constexpr double kWider = 1.4;     // times the narrowest: something else begins
-  constexpr double kFarthest = 1.5;  // of the blades from the gap on
-  constexpr double kShortest = 0.5;  // of the width; a joint holds a screw
-  constexpr double kMarginPx = 2;    // before that
+                                 const Gap& gap,
+                                 const std::optional<Vector2d>& pivot) {
+  constexpr double kBehindPivot = 0.5;  // of the width
+  constexpr double kWider = 1.4;        // times the narrowest: something else begins
+  constexpr double kFarthest = 1.5;     // of the blades from the gap on
+  constexpr double kShortest = 0.5;     // of the width; a joint holds a screw
+  constexpr double kMarginPx = 2;       // before that
   const Vector2d across(-gap.axis.y(), gap.axis.x());
   Vector2d middle = gap.crotch;
   double narrowest = gap.blade_px;
@@ -106,6 +108,8 @@ std::optional<Joint> JointBehind(const Silhouette& silhouette,
     const std::vector<Run> runs = RunsAcross(silhouette.filled, at, across, gap.blade_px);
     const auto run =
         std::ranges::find_if(runs, [](const Run& each) { return each.from <= 0 && each.to >= 0; });
+    const bool is_past_pivot = pivot && (*pivot - at).dot(gap.axis) > kBehindPivot * narrowest;
+    if (is_past_pivot) return Joint{middle, narrowest};
     if (run == runs.end()) return std::nullopt;
     const double width = run->to - run->from;
     const std::vector<Vector2d> sides{at + run->from * across, at + run->to * across};
@@ -159,10 +163,12 @@ std::optional<WithoutHandles> CutOff(const Silhouette& silhouette,
 
 }  // namespace
 
-std::vector<WithoutHandles> CutOffHandles(const Silhouette& silhouette, const cv::Mat& hidden) {
+std::vector<WithoutHandles> CutOffHandles(const Silhouette& silhouette,
+                                          const cv::Mat& hidden,
+                                          const std::optional<Vector2d>& pivot) {
   std::vector<WithoutHandles> cut;
   for (const Gap& gap : GapsOf(silhouette.contour)) {
-    const std::optional<Joint> joint = JointBehind(silhouette, hidden, gap);
+    const std::optional<Joint> joint = JointBehind(silhouette, hidden, gap, pivot);
     if (!joint) continue;
     if (auto without = CutOff(silhouette, hidden, gap, *joint)) cut.push_back(*std::move(without));
   }

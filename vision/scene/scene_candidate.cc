@@ -276,9 +276,11 @@ Rung SeenWithoutHandles(const Candidate& unresolved,
                         const cv::Mat& hidden,
                         const StoredHints& hints) {
   constexpr double kDoubtful = 0.7;
+  std::optional<Vector2d> pivot;
+  if (hints.pivot_px) pivot = unresolved.at->SmallFromFull(*hints.pivot_px);
   Rung seen;
   for (const Silhouette& silhouette : FindSilhouettes(unresolved.mask, kMostThings)) {
-    for (const WithoutHandles& cut : CutOffHandles(silhouette, hidden)) {
+    for (const WithoutHandles& cut : CutOffHandles(silhouette, hidden, pivot)) {
       std::optional<BladePair> pair = FindBladePairAt(cut.silhouette, cut.hidden, cut.crotches);
       if (!pair) continue;
       Candidate in_mask = unresolved;

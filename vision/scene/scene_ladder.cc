@@ -154,8 +154,8 @@ LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
   if (!ShowsWholeBlades(result)) {
     Rung covered = RungWithoutHandles(looked->view, all.unresolved);
     LadderResult without = Choose(covered.candidates);
-    constexpr int kAgreeing = 3;
-    if (ShowsWholeBlades(without) && without.best.agreeing >= kAgreeing) {
+    const int least_agreeing = looked->view.hints.pivot_px ? 1 : 3;
+    if (ShowsWholeBlades(without) && without.best.agreeing >= least_agreeing) {
       log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
       all.candidates = std::move(covered.candidates);
       without.climbed = true;
@@ -252,6 +252,8 @@ LadderResult SceneLadder::ClimbToCut(Plan plan, LadderResult result, Looked* loo
   if (ShowsWholeBlades(result)) {
     result = Consider(in_cut, all);
   } else {
+    for (const Rung& rung : in_cut)
+      all->unresolved.insert(all->unresolved.end(), rung.unresolved.begin(), rung.unresolved.end());
     Rung cut;  // by itself: what others make of the pattern is none
     LadderResult by_cut = Consider(in_cut, &cut);
     if (ShowsWholeBlades(by_cut)) {
