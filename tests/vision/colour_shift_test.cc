@@ -66,6 +66,17 @@ TEST(UndoLumaShift, MovesNothingOnPaper) {
   EXPECT_NEAR(OffPx(measured, true), before_px, kNothing);
 }
 
+// A narrow bevel that mirrors something dark: the blade's colours are read beyond it, and the ground
+// is not brighter beside it than further off.
+TEST(UndoLumaShift, MovesNothingBesideADarkBandOfGreyMetal) {
+  constexpr double kNothing = 0.01, kDarker = 0.4;  // px; of white
+  Measured measured{Plain(Backdrop::kPaper)};
+  for (LocatedEdgePoint& p : measured.blades.upper.edge.points) p.contrast += kDarker;
+  const double before_px = OffPx(measured, true);
+  UndoLumaShift(measured.View(), Plan::kAsNeeded, &measured.blades);
+  EXPECT_NEAR(OffPx(measured, true), before_px, kNothing);
+}
+
 TEST(UndoLumaShift, MovesNoEdgeThatWasLocatedInColours) {
   Measured measured{Plain(Backdrop::kDrape)};
   measured.blades.upper.edge.unbound_blur_px = std::numeric_limits<double>::quiet_NaN();

@@ -21,7 +21,8 @@ using Eigen::Vector3d;
 constexpr std::size_t kStretches = 12;  // of an edge; shadows lie along some of it
 
 // Light on either side of a stretch of an edge: the colours clear of its blur, the step at it, as
-// shadows may end in between.
+// in between shadows may end, which are darker than the ground, or a band of the blade's, as of a
+// dark bevel's.
 class SideColours {
  public:
   void Add(const BladeView& view, const LocatedEdgePoint& p, double clear_px) {
@@ -38,12 +39,16 @@ class SideColours {
   }
 
   [[nodiscard]] double Shift(const ToneCurve& tone) const {
-    constexpr double kLeast = 0.05;  // of the ground's light
+    constexpr double kLeast = 0.05;  // of the light
     if (count_ == 0) return 0;
     const Vector3d blade = blade_ / count_, ground = ground_ / count_;
-    const double at_edge = (LightInGrey(blade, tone) + contrast_ / count_) /
-                           std::max(LightInGrey(ground, tone), kDarkestLight);
-    return LumaShift(blade, std::max(kLeast, at_edge) * ground, tone);
+    const double contrast = contrast_ / count_;
+    const double blade_grey = std::max(LightInGrey(blade, tone), kDarkestLight);
+    const double ground_grey = std::max(LightInGrey(ground, tone), kDarkestLight);
+    const double of_ground = (blade_grey + contrast) / ground_grey;
+    if (of_ground <= 1) return LumaShift(blade, std::max(kLeast, of_ground) * ground, tone);
+    const double of_blade = (ground_grey - contrast) / blade_grey;
+    return LumaShift(std::max(kLeast, of_blade) * blade, ground, tone);
   }
 
  private:
