@@ -66,8 +66,8 @@ TEST(UndoLumaShift, MovesNothingOnPaper) {
   EXPECT_NEAR(OffPx(measured, true), before_px, kNothing);
 }
 
-// A narrow bevel that mirrors something dark: the blade's colours are read beyond it, and the ground
-// is not brighter beside it than further off.
+// A narrow bevel that mirrors something dark: the blade's colours are read beyond it, and the
+// ground is not brighter beside it than further off.
 TEST(UndoLumaShift, MovesNothingBesideADarkBandOfGreyMetal) {
   constexpr double kNothing = 0.01, kDarker = 0.4;  // px; of white
   Measured measured{Plain(Backdrop::kPaper)};
