@@ -216,18 +216,6 @@ void DescribeBlades(const Silhouette& silhouette,
   pair->second.shank = std::move(shank_second);
 }
 
-// The deepest inlets, in the order of the contour.
-void KeepDeepest(std::size_t most, std::vector<Inlet>* inlets) {
-  if (inlets->size() <= most) return;
-  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
-    return a.depth > b.depth;
-  });
-  inlets->resize(most);
-  std::sort(inlets->begin(), inlets->end(), [](const Inlet& a, const Inlet& b) {
-    return a.start < b.start;
-  });
-}
-
 }  // namespace
 
 double Grade(double value, double good, double bad) {
@@ -280,8 +268,8 @@ std::optional<BladePair> FindBladePairAt(const Silhouette& silhouette,
 }
 
 std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Mat& hidden) {
-  std::vector<Inlet> inlets = FindInlets(silhouette.contour);
-  KeepDeepest(8, &inlets);
+  constexpr std::size_t kMostInlets = 8;
+  const std::vector<Inlet> inlets = DeepestInlets(silhouette.contour, kMostInlets);
   std::vector<BladePair> pairs;
   const std::size_t n = inlets.size();
   for (std::size_t gap = 0; gap < n; ++gap) {

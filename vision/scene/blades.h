@@ -47,7 +47,7 @@ struct Crotches {
                                                        const Crotches& at);
 
 // All gaps of the silhouette that might lie between two blades, the likeliest first; empty if none
-// does.
+// does. `hidden` as above.
 [[nodiscard]] std::vector<BladePair> FindBladePairs(const Silhouette& silhouette,
                                                     const cv::Mat& hidden);
 

@@ -43,8 +43,6 @@ Run FollowTo(const cv::Mat& filled, const Shank& shank, double share, const Run&
   return best == runs.end() ? last : *best;
 }
 
-double WidthOf(const Run& run) { return run.to - run.from; }
-
 // The highest rise of a shank's inner side, its outer side being straight there.
 struct Rise {
   double height_px = 0;
@@ -91,13 +89,13 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
   for (int k = 0; k < kSteps; ++k) {
     const Run last = sides.empty() ? Run{} : sides.back();
     sides.push_back(FollowTo(filled, shank, kFirst + kStep * k, last));
-    if (k >= kShankFrom && k < kShankTo) widths.push_back(WidthOf(sides.back()));
+    if (k >= kShankFrom && k < kShankTo) widths.push_back(sides.back().Length());
   }
   const double width = std::max(kNarrowest, Median(std::move(widths)));
   const double slope = cut ? SlopeOf(sides, kShankFrom, kShankTo) : 0;
   const int end = cut ? RingBegins(sides, kShankTo, width, slope) : kSteps;
   const auto nearer = [](const Run& a, const Run& b) { return a.to < b.to; };
-  const auto slimmer = [](const Run& a, const Run& b) { return WidthOf(a) < WidthOf(b); };
+  const auto slimmer = [](const Run& a, const Run& b) { return a.Length() < b.Length(); };
   Rise highest;
   highest.width_px = width;
   for (int k = kReach; k + kReach < end; ++k) {
@@ -110,7 +108,7 @@ Rise HighestRise(const cv::Mat& filled, const Shank& shank, bool cut) {
     const double rise = at->to - std::max(base(before), base(after));
     const double bulge = (std::min(before->from, after->from) - at->from) / width;
     const auto slim = std::min_element(at + 1, at + kReach + 1, slimmer);
-    const bool ends = WidthOf(*at) - WidthOf(*slim) > kSlimmer * rise;
+    const bool ends = at->Length() - slim->Length() > kSlimmer * rise;
     if (bulge < kStraight && ends && rise > highest.height_px) {
       highest.height_px = rise;
       highest.along_px = (kFirst + kStep * k) * (shank.to - shank.from).norm();

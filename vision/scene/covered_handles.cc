@@ -23,14 +23,15 @@ struct Gap {
   double blade_px = 0;
 };
 
-std::optional<Gap> GapOf(const Outline& outline, const Inlet& inlet) {
+// Its deepest place, and the places between which it opens, as indices into the contour.
+std::optional<Gap> GapOf(const Outline& outline, int start, int far, int end) {
   constexpr double kShortestPx = 16;
   constexpr double kAlike = 0.5;    // shorter blade over longer one
   constexpr double kWidest = -0.2;  // cosine; a blade and a shank part by more than blades do
   Gap gap;
-  gap.crotch = outline.At(inlet.far);
-  const Vector2d first = outline.At(inlet.start) - gap.crotch;
-  const Vector2d second = outline.At(inlet.end) - gap.crotch;
+  gap.crotch = outline.At(far);
+  const Vector2d first = outline.At(start) - gap.crotch;
+  const Vector2d second = outline.At(end) - gap.crotch;
   gap.blade_px = std::max(first.norm(), second.norm());
   const double shorter_px = std::min(first.norm(), second.norm());
   if (gap.blade_px < kShortestPx || shorter_px < kAlike * gap.blade_px ||
@@ -65,16 +66,13 @@ std::vector<Gap> GapsOf(const std::vector<cv::Point>& contour) {
   std::vector<Gap> gaps;
   const auto add = [&](int start, int far, int end) {
     constexpr double kSamePx = 4;
-    const std::optional<Gap> gap = GapOf(outline, {start, far, end, 0});
+    const std::optional<Gap> gap = GapOf(outline, start, far, end);
     const bool is_known = gap && std::ranges::any_of(gaps, [&](const Gap& known) {
                             return (known.crotch - gap->crotch).norm() < kSamePx;
                           });
     if (gap && !is_known) gaps.push_back(*gap);
   };
-  std::vector<Inlet> inlets = FindInlets(contour);
-  std::ranges::sort(inlets, std::greater{}, &Inlet::depth);
-  inlets.resize(std::min(inlets.size(), kMost));
-  for (const Inlet& inlet : inlets) {
+  for (const Inlet& inlet : DeepestInlets(contour, kMost)) {
     add(inlet.start, inlet.far, inlet.end);
     const int end_of_next = FurthestAside(outline, inlet.far, inlet.end, kOutOf);
     add(end_of_next, FurthestAside(outline, end_of_next, inlet.end, kInto), inlet.end);
@@ -111,7 +109,7 @@ std::optional<Joint> JointBehind(const Silhouette& silhouette,
     const bool is_past_pivot = pivot && (*pivot - at).dot(gap.axis) > kBehindPivot * narrowest;
     if (is_past_pivot) return Joint{middle, narrowest};
     if (run == runs.end()) return std::nullopt;
-    const double width = run->to - run->from;
+    const double width = run->Length();
     const std::vector<Vector2d> sides{at + run->from * across, at + run->to * across};
     if (width > kWider * narrowest || RunsOutOfSight(sides, hidden, silhouette.filled.size())) {
       if (way - kMarginPx < kShortest * narrowest) return std::nullopt;

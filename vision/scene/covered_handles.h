@@ -24,7 +24,7 @@ struct WithoutHandles {
 // between the shanks; nor do those that the frame cuts off right behind the joint. What the
 // silhouette is without them, once for each gap that may be the blades': cut where behind the gap
 // it widens or runs out of sight; right behind the pivot, px, where that is known. `hidden` as for
-// FindBladePairs.
+// FindBladePairAt.
 [[nodiscard]] std::vector<WithoutHandles> CutOffHandles(
     const Silhouette& silhouette,
     const cv::Mat& hidden,

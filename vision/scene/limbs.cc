@@ -105,6 +105,19 @@ std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour) {
   return inlets;
 }
 
+std::vector<Inlet> DeepestInlets(const std::vector<cv::Point>& contour, std::size_t most) {
+  std::vector<Inlet> inlets = FindInlets(contour);
+  if (inlets.size() <= most) return inlets;
+  std::sort(inlets.begin(), inlets.end(), [](const Inlet& a, const Inlet& b) {
+    return a.depth > b.depth;
+  });
+  inlets.resize(most);
+  std::sort(inlets.begin(), inlets.end(), [](const Inlet& a, const Inlet& b) {
+    return a.start < b.start;
+  });
+  return inlets;
+}
+
 int LimbEnd(const Outline& outline, int from, int to, Way way, const Vector2d& direction) {
   constexpr double kLimb = 0.5;  // of the furthest; ragged outlines go to and fro by less
   constexpr int kStride = 4;
@@ -151,7 +164,7 @@ double WidthAcross(const cv::Mat& filled, const Vector2d& from, const Vector2d& 
   double longest = 0;
   for (const Run& run : RunsAcross(filled, from + t * (to - from), across, kLimbReach * length)) {
     if (std::max(run.from, -run.to) > kBent * length) continue;  // another limb
-    longest = std::max(longest, run.to - run.from + kRunStep);
+    longest = std::max(longest, run.Length() + kRunStep);
   }
   return longest;
 }

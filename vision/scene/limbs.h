@@ -67,6 +67,10 @@ class Outline {
 // The inlets that are too deep for ragged borders and the waists of rings, in contour order.
 [[nodiscard]] std::vector<Inlet> FindInlets(const std::vector<cv::Point>& contour);
 
+// Of those, so many at most.
+[[nodiscard]] std::vector<Inlet> DeepestInlets(const std::vector<cv::Point>& contour,
+                                               std::size_t most);
+
 // Whether any of the points lies at the frame, or where something hides what goes on (`hidden`, may
 // be empty).
 [[nodiscard]] bool RunsOutOfSight(const std::vector<Eigen::Vector2d>& points,
@@ -86,6 +90,7 @@ enum class Way { kOn, kBack };
 // A piece of a line that lies in a silhouette, px along the line.
 struct Run {
   double from = 0, to = 0;
+  [[nodiscard]] double Length() const { return to - from; }
 };
 
 // The pieces of the line through `center` along the unit vector `across`, up to `reach` px to

@@ -254,11 +254,9 @@ Rung SeenIn(const cv::Mat& mask,
         FindBladePairs(silhouette, hidden), silhouette, in_mask, hidden, hints, contradicting);
   };
   Rung seen;
-  double most = 0;
   for (const Silhouette& silhouette : FindSilhouettes(mask, kMostThings)) {
     std::optional<Candidate> candidate = first_of(silhouette, &seen.contradicting);
     const double quality = candidate ? candidate->pair.quality : 0;
-    most = std::max(most, quality);
     if (candidate) seen.candidates.push_back(*std::move(candidate));
     if (quality < kPlainlyOpen && LooksClosed(silhouette)) seen.closed = 1;
     if (quality >= kAcceptedQuality || like.outlined) continue;
@@ -268,7 +266,9 @@ Rung SeenIn(const cv::Mat& mask,
       if (touching) seen.touching.push_back(*std::move(touching));
     }
   }
-  if (most < kAcceptedQuality && !like.outlined) seen.unresolved.push_back(std::move(in_mask));
+  const bool resolved = std::ranges::any_of(
+      seen.candidates, [](const Candidate& c) { return c.pair.quality >= kAcceptedQuality; });
+  if (!resolved && !like.outlined) seen.unresolved.push_back(std::move(in_mask));
   return seen;
 }
 

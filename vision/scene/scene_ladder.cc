@@ -3,6 +3,7 @@
 #include "vision/scene/scene_ladder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <opencv2/core.hpp>
 
 #include "vision/image/smoothed.h"
@@ -141,26 +142,25 @@ const std::vector<Rung>& SceneLadder::See(const std::string& stage,
 LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
   Rung all;
   LadderResult result = ClimbIn(plan, looked, &all);
+  const auto take = [&](std::vector<Candidate> candidates, int least_agreeing, const char* why) {
+    LadderResult other = Choose(candidates);
+    if (!ShowsWholeBlades(other) || other.best.agreeing < least_agreeing) return;
+    log_->Ran("scene-handles", why);
+    all.candidates = std::move(candidates);
+    other.climbed = true;
+    result = std::move(other);
+  };
   if (!ShowsWholeBlades(result)) {
     constexpr int kAgreeing = 2;
-    LadderResult touching = Choose(all.touching);
-    if (ShowsWholeBlades(touching) && touching.best.agreeing >= kAgreeing) {
-      log_->Ran("scene-handles", "nothing else shows blades: handles that touch may be parted");
-      all.candidates = std::move(all.touching);
-      touching.climbed = true;
-      result = std::move(touching);
-    }
+    take(std::move(all.touching),
+         kAgreeing,
+         "nothing else shows blades: handles that touch may be parted");
   }
   if (!ShowsWholeBlades(result)) {
-    Rung covered = RungWithoutHandles(looked->view, all.unresolved);
-    LadderResult without = Choose(covered.candidates);
-    const int least_agreeing = looked->view.hints.pivot_px ? 1 : 3;
-    if (ShowsWholeBlades(without) && without.best.agreeing >= least_agreeing) {
-      log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
-      all.candidates = std::move(covered.candidates);
-      without.climbed = true;
-      result = std::move(without);
-    }
+    constexpr int kAgreeing = 3, kAtPivot = 1;
+    take(RungWithoutHandles(looked->view, all.unresolved).candidates,
+         looked->view.hints.pivot_px ? kAtPivot : kAgreeing,
+         "nothing else shows blades: handles may lie on something");
   }
   result.seen = std::move(all.candidates);
   return result;
@@ -252,13 +252,13 @@ LadderResult SceneLadder::ClimbToCut(Plan plan, LadderResult result, Looked* loo
   if (ShowsWholeBlades(result)) {
     result = Consider(in_cut, all);
   } else {
-    for (const Rung& rung : in_cut)
-      all->unresolved.insert(all->unresolved.end(), rung.unresolved.begin(), rung.unresolved.end());
     Rung cut;  // by itself: what others make of the pattern is none
     LadderResult by_cut = Consider(in_cut, &cut);
     if (ShowsWholeBlades(by_cut)) {
       *all = std::move(cut);
       result = std::move(by_cut);
+    } else {
+      std::ranges::move(cut.unresolved, std::back_inserter(all->unresolved));
     }
   }
   result.climbed = true;
