@@ -22,6 +22,7 @@
 #include "vision/photo/png_writer.h"
 #include "vision/photo/sha256.h"
 #include "vision/refused.h"
+#include "vision/render/render.h"
 
 namespace bladecurve {
 namespace {
@@ -197,6 +198,26 @@ TEST(PhotoLoad, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
     const cv::Mat whole = GreyOn(1, path), in_two = GreyOn(2, path);
     EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
     EXPECT_LT(cv::norm(whole, picture, cv::NORM_INF), 16);
+  }
+}
+
+TEST(PhotoDecodeColour, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
+  cv::Mat bgr;
+  const cv::Mat across = Gradient(1531, 1023), down = Gradient(1023, 1531).t();
+  cv::merge(std::vector{across, down, across}, bgr);
+  cv::circle(bgr, {700, 716}, 200, {200, 20, 20}, 7);  // where the upper and the lower rows meet
+  const Photo photo = Photo::Load(Write("large-colour.jpg", EncodeJpeg(bgr, 92)));
+  for (const int side : {1531, 700, 300}) {
+    const auto decoded = [&](int num_threads) {
+      cv::Mat colour;
+      ParallelFor(1, num_threads, [&](int) { colour = photo.DecodeColour(side, 2); });
+      return colour;
+    };
+    const cv::Mat whole = decoded(1), in_two = decoded(2);
+    EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
+    cv::Mat expected;
+    cv::resize(bgr, expected, whole.size(), 0, 0, cv::INTER_AREA);
+    EXPECT_LT(cv::norm(whole, expected, cv::NORM_L1) / static_cast<double>(3 * whole.total()), 3);
   }
 }
 

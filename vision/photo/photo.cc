@@ -142,9 +142,7 @@ Photo Photo::Load(const std::filesystem::path& path) {
   try {
     Photo photo;
     photo.bytes_ = ReadWholeFile(path);
-    DecodeOptions options;
-    options.num_threads = UsableThreads();
-    const DecodedPhoto decoded = Decode(photo.bytes_, options);
+    const DecodedPhoto decoded = Decode(photo.bytes_, {.num_threads = UsableThreads()});
     photo.metadata_ = Describe(photo.bytes_, decoded);
     const int orientation = photo.metadata_.orientation;
     photo.metadata_.orientation = WithColumnsFlipped(orientation);
@@ -174,8 +172,9 @@ std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
 cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");
-  const cv::Mat colour =
-      Unmirrored(Decode(bytes_, {.colour = true, .long_side = max_side}).picture.pixels);
+  const cv::Mat colour = Unmirrored(
+      Decode(bytes_, {.colour = true, .long_side = max_side, .num_threads = UsableThreads()})
+          .picture.pixels);
   const double factor = static_cast<double>(max_side) / std::max(colour.cols, colour.rows);
   if (factor * slack >= 1) return colour;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(colour.cols * factor))),

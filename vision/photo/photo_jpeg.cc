@@ -81,9 +81,17 @@ class JpegReader {
   PicturePart Decode(const DecodeOptions& options);
   // Whether parts of the picture may be decoded beside each other, and quicker than all in turn.
   bool Divisible();
-  // Full-size grey rows [first, last) into the same rows of `grey`, CV_8UC1.
-  void DecodeGreyRows(int first, int last, cv::Mat* grey);
   FileFacts Facts() const;
+
+  // Decoding in steps; Decode takes all of them. What the pixels will look like as they are stored:
+  struct Stored {
+    cv::Size size;
+    PixelLayout layout;
+    int block_rows = 0;  // of pictures with halved colour; whole ones are skipped best
+  };
+  Stored Begin(const DecodeOptions& options);
+  // Once: rows [first, last) into the same rows of `stored`.
+  void DecodeRows(int first, int last, cv::Mat* stored);
 
  private:
   // `step` must hold no object with a destructor while it calls libjpeg: a jump would skip it.
@@ -127,16 +135,21 @@ void JpegReader::ChooseSize(int long_side) {
   }
 }
 
-PicturePart JpegReader::Decode(const DecodeOptions& options) {
+JpegReader::Stored JpegReader::Begin(const DecodeOptions& options) {
   const PixelLayout layout = ChooseLayout(options.colour);
   ChooseSize(options.long_side);
   Guarded([&] { jpeg_start_decompress(&info_); });
-  const cv::Rect all(
-      0, 0, static_cast<int>(info_.output_width), static_cast<int>(info_.output_height));
-  const cv::Rect part = options.part.empty() ? all : GoTo(options.part);
-  cv::Mat stored = NewPicture(part.size(), CV_8UC(ChannelsOf(layout)));
+  return {{static_cast<int>(info_.output_width), static_cast<int>(info_.output_height)},
+          layout,
+          2 * static_cast<int>(info_.scale_num)};
+}
+
+PicturePart JpegReader::Decode(const DecodeOptions& options) {
+  const Stored all = Begin(options);
+  const cv::Rect part = options.part.empty() ? cv::Rect({0, 0}, all.size) : GoTo(options.part);
+  cv::Mat stored = NewPicture(part.size(), CV_8UC(ChannelsOf(all.layout)));
   ReadRows(part.y, part.br().y, &stored);
-  return {ConvertPixels(stored, layout, options.colour), part.tl()};
+  return {ConvertPixels(stored, all.layout, options.colour), part.tl()};
 }
 
 cv::Rect JpegReader::GoTo(const cv::Rect& part) {
@@ -169,13 +182,9 @@ bool JpegReader::Divisible() {
          1.0 * width() * height() > kWorthAThread;
 }
 
-void JpegReader::DecodeGreyRows(int first, int last, cv::Mat* grey) {
-  Guarded([&] {
-    info_.out_color_space = JCS_GRAYSCALE;
-    jpeg_start_decompress(&info_);
-    jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first));
-  });
-  ReadRows(0, last, grey);
+void JpegReader::DecodeRows(int first, int last, cv::Mat* stored) {
+  Guarded([&] { jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first)); });
+  ReadRows(0, last, stored);
 }
 
 FileFacts JpegReader::Facts() const {
@@ -194,17 +203,24 @@ FileFacts JpegReader::Facts() const {
 }
 
 // Two readers, one for the upper rows, one for the lower. Huffman codes cannot be entered half-way,
-// so the second reads those of the upper rows as well: two thirds of the work of decoding them.
-cv::Mat DecodeGreyInTwo(std::string_view bytes, const cv::Size& size) {
+// so the second reads those of the upper rows as well: two thirds of the work of decoding them,
+// more where the picture is decoded smaller.
+cv::Mat DecodeInTwo(std::string_view bytes, const DecodeOptions& options, JpegReader* upper) {
   constexpr double kUpperShare = 0.7;  // both take about as long
-  constexpr int kBlockRows = 16;  // of pictures with halved colour; whole ones are skipped best
-  const int seam = static_cast<int>(kUpperShare * size.height) / kBlockRows * kBlockRows;
-  cv::Mat grey = NewPicture(size, CV_8UC1);
+  const JpegReader::Stored all = upper->Begin(options);
+  const int seam =
+      static_cast<int>(kUpperShare * all.size.height) / all.block_rows * all.block_rows;
+  cv::Mat stored = NewPicture(all.size, CV_8UC(ChannelsOf(all.layout)));
   ParallelFor(2, [&](int part) {
-    JpegReader reader(bytes);
-    reader.DecodeGreyRows(part == 0 ? 0 : seam, part == 0 ? seam : size.height, &grey);
+    if (part == 0) {
+      upper->DecodeRows(0, seam, &stored);
+    } else {
+      JpegReader lower(bytes);
+      lower.Begin(options);
+      lower.DecodeRows(seam, all.size.height, &stored);
+    }
   });
-  return grey;
+  return ConvertPixels(stored, all.layout, options.colour);
 }
 
 }  // namespace
@@ -213,9 +229,8 @@ DecodedPhoto DecodeJpeg(std::string_view bytes, const DecodeOptions& options) {
   JpegReader reader(bytes);
   const cv::Size size(reader.width(), reader.height());
   CheckPhotoSize(size.width, size.height);
-  const bool whole_grey = !options.colour && options.long_side <= 0;
-  const bool in_two = whole_grey && options.num_threads >= 2 && reader.Divisible();
-  return {in_two ? PicturePart(DecodeGreyInTwo(bytes, size)) : reader.Decode(options),
+  const bool in_two = options.part.empty() && options.num_threads >= 2 && reader.Divisible();
+  return {in_two ? PicturePart(DecodeInTwo(bytes, options, &reader)) : reader.Decode(options),
           size.width,
           size.height,
           reader.Facts()};
