@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -172,6 +173,7 @@ void MeasureAllRendered() {
 }  // namespace bladecurve
 
 int main(int argc, char** argv) {
+  cv::setNumThreads(1);  // as the program does: ParallelFor alone shares out
   fmt::print(
       "best of {} runs in turn, ms. imread: cv::imread, grey; own: our decoding, grey, on one "
       "thread;\n"
