@@ -217,7 +217,7 @@ cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr, const BackgroundModel& 
   cv::Mat distance(bgr.size(), CV_32FC1);
   std::array<float, 3> inverse{};
   for (std::size_t c = 0; c < 3; ++c) inverse[c] = static_cast<float>(1 / background.scatter[c]);
-  for (int row = 0; row < bgr.rows; ++row) {
+  const auto fill_row = [&](int row) {
     const RowOfBackground rows[3] = {{background.coefficients[0], bgr.size(), row},
                                      {background.coefficients[1], bgr.size(), row},
                                      {background.coefficients[2], bgr.size(), row}};
@@ -235,7 +235,10 @@ cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr, const BackgroundModel& 
       }
       out[col] = std::sqrt(squared);
     }
-  }
+  };
+  ParallelForBands(bgr.rows, [&](int first, int last) {
+    for (int row = first; row < last; ++row) fill_row(row);
+  });
   return distance;
 }
 

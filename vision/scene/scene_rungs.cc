@@ -227,8 +227,14 @@ Rung CutRung(const SceneView& view, const ColourPictures& colour) {
 Outlines OutlinesIn(const SceneView& view) {
   Outlines outlines{SmallColour(view, kOutlineSide), {}, {}};
   const ColourPictures& colour = outlines.colour;
-  outlines.ground = GroundAtFrame(LabDistance(colour));
-  const cv::Mat sharp_gradient = SharpGradient(colour.lab->pixels);
+  cv::Mat sharp_gradient;
+  ParallelFor(2, [&](int part) {
+    if (part == 0) {
+      outlines.ground = GroundAtFrame(LabDistance(colour));
+    } else {
+      sharp_gradient = SharpGradient(colour.lab->pixels);
+    }
+  });
   constexpr std::array kClosedPx{3, 5};
   outlines.closed = ParallelMap(static_cast<int>(kClosedPx.size()), [&](int i) {
     const int closed_px = kClosedPx[static_cast<std::size_t>(i)];

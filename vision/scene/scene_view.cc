@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/image/block_means.h"
 #include "vision/image/lab_colour.h"
+#include "vision/parallel.h"
 #include "vision/scale/marker_paper.h"
 
 namespace bladecurve {
@@ -29,11 +31,28 @@ cv::Size SmallSize(const cv::Rect& area_px, int longest) {
           std::max(1, static_cast<int>(std::lround(area_px.height * k)))};
 }
 
+// Means over areas, in bands whose borders lie between rows of both.
+cv::Mat Reduced(const cv::Mat& image, const cv::Size& size) {
+  constexpr int kWorthAThread = 100;  // rows
+  const int alike = std::gcd(image.rows, size.height);
+  const int bands = std::min(alike, std::max(1, size.height / kWorthAThread));
+  cv::Mat reduced(size, image.type());
+  ParallelFor(bands, [&](int band) {
+    const auto rows = [&](const cv::Mat& of) {
+      const int step = of.rows / alike;
+      return of.rowRange(band * alike / bands * step, (band + 1) * alike / bands * step);
+    };
+    cv::Mat into = rows(reduced);
+    cv::resize(rows(image), into, into.size(), 0, 0, cv::INTER_AREA);
+  });
+  return reduced;
+}
+
 cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
-  cv::Mat resized;
-  const bool enlarges = size.width > image.cols;
-  cv::resize(image, resized, size, 0, 0, enlarges ? cv::INTER_CUBIC : cv::INTER_AREA);
-  return resized;
+  if (size.width <= image.cols) return Reduced(image, size);
+  cv::Mat enlarged;
+  cv::resize(image, enlarged, size, 0, 0, cv::INTER_CUBIC);
+  return enlarged;
 }
 
 void SmoothIfWanted(const SceneView& view, cv::Mat* small) {

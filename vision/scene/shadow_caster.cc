@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/image/disk.h"
+#include "vision/parallel.h"
 #include "vision/scene/moved_image.h"
 #include "vision/scene/parted_members.h"
 #include "vision/scene/tones.h"
@@ -86,21 +88,26 @@ struct Cast {
   MovedImage image;
 };
 
-// The best explanation of all tones by one shadow.
-Cast Explain(const Things& things) {
+// How well one shadow that is cast by these tones explains the others.
+Cast CastBy(const Run& run, const Things& things) {
   constexpr double kLeastCaster = 0.2, kLeastShadow = 0.05;  // of the things
   const double area_px = cv::countNonZero(things.mask);
-  Cast best;
-  for (const Run& run : RunsOf(things.tones.peaks.size())) {
-    const cv::Mat caster = In(BandOf(run, things.tones, 0), things);
-    const cv::Mat other = Opened(things.mask & ~caster);
-    if (cv::mean(things.lightness, other)[0] >= 0) continue;  // no shadow is
-    if (cv::countNonZero(caster) < kLeastCaster * area_px) continue;
-    if (cv::countNonZero(other) < kLeastShadow * area_px) continue;
-    const MovedImage image = BestMovedImage(caster, other);
-    if (image.agreement > best.image.agreement) best = {run, image};
-  }
-  return best;
+  const cv::Mat caster = In(BandOf(run, things.tones, 0), things);
+  const cv::Mat other = Opened(things.mask & ~caster);
+  const bool may_be = cv::mean(things.lightness, other)[0] < 0 &&
+                      cv::countNonZero(caster) >= kLeastCaster * area_px &&
+                      cv::countNonZero(other) >= kLeastShadow * area_px;
+  return {run, may_be ? BestMovedImage(caster, other) : MovedImage{}};
+}
+
+// The best explanation of all tones by one shadow.
+Cast Explain(const Things& things) {
+  const std::vector<Run> runs = RunsOf(things.tones.peaks.size());
+  const std::vector<Cast> casts = ParallelMap(static_cast<int>(runs.size()), [&](int i) {
+    return CastBy(runs[static_cast<std::size_t>(i)], things);
+  });
+  return *std::ranges::max_element(
+      casts, {}, [](const Cast& cast) { return cast.image.agreement; });
 }
 
 }  // namespace
@@ -120,14 +127,13 @@ std::vector<cv::Mat> MasksOfShadowCaster(const cv::Mat& lightness,
                       tones};
   const Cast cast = Explain(in_box);
   if (cast.image.agreement < kExplains) return {};
-  std::vector<cv::Mat> masks;
-  for (const double wider : kWider) {
-    cv::Mat caster = In(BandOf(cast.run, tones, wider), in_box);
+  return ParallelMap(static_cast<int>(std::size(kWider)), [&](int i) {
+    cv::Mat caster = In(BandOf(cast.run, tones, kWider[i]), in_box);
     JoinPartedMembers(cast.image.shift_px, &caster);
-    masks.push_back(cv::Mat::zeros(things.size(), CV_8UC1));
-    caster.copyTo(masks.back()(box));
-  }
-  return masks;
+    cv::Mat mask = cv::Mat::zeros(things.size(), CV_8UC1);
+    caster.copyTo(mask(box));
+    return mask;
+  });
 }
 
 }  // namespace bladecurve

@@ -3,14 +3,16 @@
 #include "vision/scene/sharp_gradient.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "vision/image/disk.h"
-#include "vision/image/smoothed.h"
 #include "vision/parallel.h"
 
 namespace bladecurve {
@@ -18,33 +20,47 @@ namespace {
 
 constexpr float kBinsPerOctave = 12, kLowestWall = 0.25F;  // of WallBins
 
-// Length of the gradient over all three channels at a smoothing of `sigma` px, Lab units per px.
-cv::Mat GradientLength(const cv::Mat& lab, double sigma) {
-  const cv::Mat smooth = Smoothed(lab, sigma);
-  cv::Mat length(lab.size(), CV_32FC1);
-  ParallelForBands(lab.rows, [&](int first, int last) {
-    cv::Mat x;
-    cv::Mat y;
-    cv::Scharr(smooth.rowRange(first, last), x, CV_32F, 1, 0, 1.0 / 32);
-    cv::Scharr(smooth.rowRange(first, last), y, CV_32F, 0, 1, 1.0 / 32);
-    for (int row = first; row < last; ++row) {
-      const cv::Vec3f* gx = x.ptr<cv::Vec3f>(row - first);
-      const cv::Vec3f* gy = y.ptr<cv::Vec3f>(row - first);
-      float* out = length.ptr<float>(row);
-      for (int col = 0; col < lab.cols; ++col)
-        out[col] = std::sqrt(gx[col].dot(gx[col]) + gy[col].dot(gy[col]));
-    }
-  });
+// Length of the gradient over all three channels at a smoothing of `sigma` px, Lab units per px, in
+// the rows [first, last).
+cv::Mat GradientLength(const cv::Mat& lab, double sigma, int first, int last) {
+  const int above = std::min(first, 1), below = std::min(lab.rows - last, 1);  // rows that count
+  cv::Mat smooth, x, y;
+  cv::GaussianBlur(lab.rowRange(first - above, last + below), smooth, {}, sigma);
+  const cv::Mat rows = smooth.rowRange(above, smooth.rows - below);
+  cv::Scharr(rows, x, CV_32F, 1, 0, 1.0 / 32);
+  cv::Scharr(rows, y, CV_32F, 0, 1, 1.0 / 32);
+  cv::Mat length(rows.size(), CV_32FC1);
+  for (int row = 0; row < length.rows; ++row) {
+    const cv::Vec3f* gx = x.ptr<cv::Vec3f>(row);
+    const cv::Vec3f* gy = y.ptr<cv::Vec3f>(row);
+    float* out = length.ptr<float>(row);
+    for (int col = 0; col < length.cols; ++col)
+      out[col] = std::sqrt(gx[col].dot(gx[col]) + gy[col].dot(gy[col]));
+  }
   return length;
+}
+
+// Of values that are not negative, as std::nth_element would put it in the middle, but quicker: such
+// floats are in the order of their bits.
+float Middle(const cv::Mat& values) {
+  constexpr int kLowBits = 16;
+  std::vector<int> counts(std::size_t{1} << kLowBits);
+  const auto high = [](float value) { return std::bit_cast<std::uint32_t>(value) >> kLowBits; };
+  const float *const first = values.ptr<float>(), *const end = first + values.total();
+  for (const float* value = first; value != end; ++value) ++counts[high(*value)];
+  auto before = static_cast<std::ptrdiff_t>(values.total() / 2);
+  std::uint32_t bin = 0;
+  for (; before >= counts[bin]; ++bin) before -= counts[bin];
+  std::vector<float> alike;
+  std::copy_if(first, end, std::back_inserter(alike), [&](float v) { return high(v) == bin; });
+  std::nth_element(alike.begin(), alike.begin() + before, alike.end());
+  return alike[static_cast<std::size_t>(before)];
 }
 
 // In units of its median.
 cv::Mat InUsualUnits(const cv::Mat& relief) {
   constexpr float kRounding = 0.1F;  // Lab units per px: what an even, noiseless ground has
-  std::vector<float> values(relief.begin<float>(), relief.end<float>());
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return relief / std::max(*middle, kRounding);
+  return relief / std::max(Middle(relief), kRounding);
 }
 
 }  // namespace
@@ -54,7 +70,13 @@ cv::Mat SharpGradient(const cv::Mat& lab) {
   constexpr double kCoarse = 2.5;
   constexpr double kSoft = 1.2;  // a ramp that loses less than a sixth is no wall; a step loses two
                                  // thirds
-  return cv::max(GradientLength(lab, kFine) - kSoft * GradientLength(lab, kCoarse), 0);
+  cv::Mat sharp(lab.size(), CV_32FC1);
+  ParallelForBands(lab.rows, [&](int first, int last) {
+    const cv::Mat ramps = kSoft * GradientLength(lab, kCoarse, first, last);
+    cv::Mat rows = sharp.rowRange(first, last);
+    cv::max(GradientLength(lab, kFine, first, last) - ramps, 0, rows);
+  });
+  return sharp;
 }
 
 cv::Mat Walls(const cv::Mat& sharp_gradient, int closed_px, const cv::Mat& ignore) {
