@@ -282,6 +282,25 @@ TEST(LocateBlades, TakesNoBevelForAShadowThatNothingElseCasts) {
   }
 }
 
+// Catalogue pictures without a shadow: shanks are as dark along their sides as bevels, and tell
+// nothing.
+TEST(LocateBlades, DoubtsNoBevelWhereTheOtherBladesOuterSideCastsNothing) {
+  constexpr double kClosePx = 0.3;
+  for (const std::uint64_t seed : {7000027, 7000049}) {
+    SceneSpec spec = RandomScene(seed);
+    spec.width = 1600;
+    spec.height = 1200;
+    spec.camera.mm_per_px = 0.16;
+    spec.camera.tilt_rad = 0;
+    spec.backdrop = Backdrop::kCutOut;
+    spec.light.shadow = spec.light.contact_shadow = 0;
+    spec.markers.clear();
+    const BladeEdges edges = Seen(spec).Locate();
+    EXPECT_LE(edges.lower.ambiguity, kAsGood) << seed;
+    EXPECT_LT(FarFrom(TruthOf(spec).lower, edges.lower.points), kClosePx) << seed;
+  }
+}
+
 // There the blade's outer side casts a shadow, by far wider than the bevel.
 TEST(LocateBlades, TakesNoBevelForAShadowOnTheSideThatLightComesFrom) {
   constexpr double kClosePx = 0.5;

@@ -138,6 +138,16 @@ void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right) 
   *right = *r;
 }
 
+void ConfirmWhereNothingCasts(const BladeView& view,
+                              const LocatedEdge& other,
+                              LocatedEdge* edge,
+                              bool left) {
+  constexpr double kSomewhatSameWay = 0.5;  // cosine
+  if (!HasDarkBand(*edge) || edge->rival_px > 0 || other.ambiguity > kFaint) return;
+  if (CastsNone(view, view.OuterSide(!left), *edge, edge->rival_px, kSomewhatSameWay))
+    DropRival(edge);
+}
+
 std::optional<LocatedEdge> WithinBand(const BladeView& view, const LocatedEdge& edge, bool left) {
   if (!HasDarkBand(edge, kFaint) || edge.rival_px > 0) return std::nullopt;
   return AlongSide(view, edge.rival_path_px, edge, left);

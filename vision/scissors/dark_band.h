@@ -36,6 +36,14 @@ namespace bladecurve {
 // shadows, and both borders the bands' inner sides. Not where one of the edges faces the light.
 void LeaveShadows(const BladeView& view, LocatedEdge* left, LocatedEdge* right);
 
+// A dark band within an edge is a bevel, and the edge in no doubt for it, where the other blade's
+// outer side, which faces somewhat the same way, casts no shadow like it, and no band lies beside
+// the other edge, which faces away from that side: light would have to come just along that blade.
+void ConfirmWhereNothingCasts(const BladeView& view,
+                              const LocatedEdge& other,
+                              LocatedEdge* edge,
+                              bool left);
+
 // The edge along the inner side of a dark band beside it, however faint, if it is seen there.
 [[nodiscard]] std::optional<LocatedEdge> WithinBand(const BladeView& view,
                                                     const LocatedEdge& edge,

@@ -156,6 +156,8 @@ BladeEdges LocateBlades(const BladeView& view, Plan plan) {
   DoubtDarkLine(view, true, &edges.upper);
   DoubtDarkLine(view, false, &edges.lower);
   LeaveBevelsLine(view, &edges);
+  ConfirmWhereNothingCasts(view, edges.lower, &edges.upper, true);
+  ConfirmWhereNothingCasts(view, edges.upper, &edges.lower, false);
   ConfirmByOcclusion(view, edges.lower, &edges.upper);
   ConfirmByOcclusion(view, edges.upper, &edges.lower);
   return edges;
