@@ -27,6 +27,11 @@ template <typename Pixel, typename Value>
          down * ((1 - right) * value(lower[0]) + right * value(lower[1]));
 }
 
+template <typename Pixel>
+[[nodiscard]] double BilinearWithin(const cv::Mat& picture, const Eigen::Vector2d& at) {
+  return BilinearWithin<Pixel>(picture, at, [](Pixel pixel) { return static_cast<double>(pixel); });
+}
+
 // value(pixel) between the four pixels about `at`, of a picture with one channel of type Pixel and
 // at least two rows and columns; beyond the picture its border repeats.
 template <typename Pixel, typename Value>

@@ -198,12 +198,15 @@ BackgroundModel FitBackground(const cv::Mat& image, const cv::Mat& ignore) {
 
 cv::Mat AboveBackground(const cv::Mat& image, const BackgroundModel& background) {
   cv::Mat above(image.size(), CV_32FC1);
-  for (int row = 0; row < image.rows; ++row) {
+  const auto fill_row = [&](int row) {
     const RowOfBackground expected(background.coefficients[0], image.size(), row);
     const float* pixels = image.ptr<float>(row);
     float* out = above.ptr<float>(row);
     for (int col = 0; col < image.cols; ++col) out[col] = pixels[col] - expected(col);
-  }
+  };
+  ParallelForBands(image.rows, [&](int first, int last) {
+    for (int row = first; row < last; ++row) fill_row(row);
+  });
   return above;
 }
 

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/image/cross.h"
+#include "vision/parallel.h"
 #include "vision/refused.h"
 #include "vision/scene/beyond_tips.h"
 #include "vision/scene/blades.h"
@@ -112,8 +113,11 @@ Scene SceneFrom(const Candidate& found) {
   const ScaledImage& at = *found.at;
   // `first` runs clockwise before the crotch (y down): seen towards the tips it is the left blade,
   // and going outwards along its inner edge the metal lies to the left; for `second` to the right.
-  std::vector<Vector2d> left = TraceInner(at.pixels, pair.first, +1);
-  std::vector<Vector2d> right = TraceInner(at.pixels, pair.second, -1);
+  const auto traces = ParallelMap(2, [&](int blade) {
+    return blade == 0 ? TraceInner(at.pixels, pair.first, +1)
+                      : TraceInner(at.pixels, pair.second, -1);
+  });
+  std::vector<Vector2d> left = traces[0], right = traces[1];
   const Vector2d crossing = CrossingOfEdges(left, right, pair.crotch);
   left = StartAt(crossing, left);
   right = StartAt(crossing, right);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "vision/parallel.h"
 #include "vision/scissors/followed_step.h"
 #include "vision/scissors/tip_arc.h"
 
@@ -228,10 +229,13 @@ std::vector<DistalEnd> EndsBefore(const cv::Mat& grey,
                                   double edge_step,
                                   double least_sharpness) {
   const Vector2d along = AlongChord(edge);
+  const auto places = static_cast<int>(std::ceil(presumed.blade_width_px / presumed.reach_px));
+  const auto caps = ParallelMap(places, [&](int i) {
+    const double back_px = (i + 1) * presumed.reach_px;
+    return ClearCapAt(presumed.tip_px - back_px * along, grey, edge, presumed);
+  });
   std::vector<DistalEnd> ends;
-  for (double back_px = presumed.reach_px; back_px < presumed.blade_width_px + presumed.reach_px;
-       back_px += presumed.reach_px) {
-    const auto cap = ClearCapAt(presumed.tip_px - back_px * along, grey, edge, presumed);
+  for (const std::optional<TipCap>& cap : caps) {
     if (cap && cap->step * edge_step > 0 && cap->sharpness > least_sharpness)
       ends.push_back(EndAtSeenCap(edge, *cap, edge_step));
   }
@@ -271,8 +275,15 @@ DistalEnds FindDistalEnds(const cv::Mat& grey,
     const double length = edge.size() < 2 ? 1 : (edge.back() - edge.front()).norm();
     return {{edge.empty() ? Vector2d::Zero() : edge.back(), edge.size(), length}, {}};
   }
-  const std::optional<TipCap> cap = FitTipCap(grey, edge, search.tip);
-  const FollowedStep followed = FollowStep(grey, edge, search.tip);
+  std::optional<TipCap> cap;
+  FollowedStep followed;
+  ParallelFor(2, [&](int part) {
+    if (part == 0) {
+      cap = FitTipCap(grey, edge, search.tip);
+    } else {
+      followed = FollowStep(grey, edge, search.tip);
+    }
+  });
   const std::optional<TipCap> rival = FindRivalCap(grey, edge, search.tip, followed.end_px);
   if (followed.blade_ends && !IsDenied(followed, cap, rival))
     return EndsBeforeShadow(grey, edge, search, *followed.end_px);

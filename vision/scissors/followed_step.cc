@@ -29,7 +29,7 @@ std::optional<double> StepAcross(const cv::Mat& grey,
     for (const double depth : {-off, off}) {
       const Vector2d p = axis.At(position, depth);
       if (!LiesWithin(grey, p)) return std::nullopt;
-      step += (depth < 0 ? 1 : -1) * Bilinear<uchar>(grey, p);
+      step += (depth < 0 ? 1 : -1) * BilinearWithin<uchar>(grey, p);
     }
   }
   return step / kPlaces;
@@ -57,7 +57,7 @@ std::optional<double> LightAt(const cv::Mat& grey,
   for (double along = -kToEitherSide; along <= kToEitherSide; along += kSpacing, ++count) {
     const Vector2d p = axis.At(position + along, depth);
     if (!LiesWithin(grey, p)) return std::nullopt;
-    sum += Bilinear<uchar>(grey, p);
+    sum += BilinearWithin<uchar>(grey, p);
   }
   return sum / count;
 }

@@ -92,15 +92,6 @@ EdgeAxis::EdgeAxis(const std::vector<Vector2d>& edge, const Vector2d& tip_px, bo
   cubic = normal.ldlt().solve(right);
 }
 
-double EdgeAxis::EdgeOffset(double position) const {
-  const double s = position / length;
-  return cubic[0] + s * (cubic[1] + s * (cubic[2] + s * cubic[3]));
-}
-
-Vector2d EdgeAxis::At(double position, double depth) const {
-  return origin + position * along + (EdgeOffset(position) + depth) * inwards;
-}
-
 double EdgeAxis::PositionOf(const Vector2d& place_px) const {
   return (place_px - origin).dot(along);
 }

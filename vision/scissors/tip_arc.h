@@ -25,9 +25,14 @@ struct EdgeAxis {
            const Eigen::Vector2d& tip_px,
            bool blade_on_left);
 
-  [[nodiscard]] double EdgeOffset(double position) const;
+  [[nodiscard]] double EdgeOffset(double position) const {
+    const double s = position / length;
+    return cubic[0] + s * (cubic[1] + s * (cubic[2] + s * cubic[3]));
+  }
   // The point at a position, `depth` px inside the blade.
-  [[nodiscard]] Eigen::Vector2d At(double position, double depth) const;
+  [[nodiscard]] Eigen::Vector2d At(double position, double depth) const {
+    return origin + position * along + (EdgeOffset(position) + depth) * inwards;
+  }
   [[nodiscard]] double PositionOf(const Eigen::Vector2d& place_px) const;
 };
 

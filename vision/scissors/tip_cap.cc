@@ -37,10 +37,11 @@ struct Line {
 std::optional<Line> LineAt(
     const cv::Mat& grey, const EdgeAxis& axis, double depth, double from, double to) {
   Line line{from, {}};
+  line.light.reserve(static_cast<std::size_t>((to - from) / kSpacing) + 2);
   for (double t = from; t <= to; t += kSpacing) {
     const Vector2d p = axis.At(t, depth);
     if (!LiesWithin(grey, p)) return std::nullopt;
-    line.light.push_back(Bilinear<uchar>(grey, p));
+    line.light.push_back(BilinearWithin<uchar>(grey, p));
   }
   return line;
 }
