@@ -9,6 +9,7 @@
 
 #include "vision/image/cross.h"
 #include "vision/image/nearest_pixel.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -270,16 +271,19 @@ std::optional<BladePair> FindBladePairAt(const Silhouette& silhouette,
 std::vector<BladePair> FindBladePairs(const Silhouette& silhouette, const cv::Mat& hidden) {
   constexpr std::size_t kMostInlets = 8;
   const std::vector<Inlet> inlets = DeepestInlets(silhouette.contour, kMostInlets);
-  std::vector<BladePair> pairs;
-  const std::size_t n = inlets.size();
-  for (std::size_t gap = 0; gap < n; ++gap) {
-    for (std::size_t back = 0; back < n; ++back) {
-      if (gap == back) continue;
-      std::optional<BladePair> pair =
-          FindBladePairAt(silhouette, hidden, {inlets[gap].far, inlets[back].far});
-      if (pair) pairs.push_back(std::move(*pair));
+  const auto of_gaps = ParallelMap(static_cast<int>(inlets.size()), [&](int gap) {
+    const Inlet& front = inlets[static_cast<std::size_t>(gap)];
+    std::vector<BladePair> of_gap;
+    for (const Inlet& back : inlets) {
+      if (&back == &front) continue;
+      std::optional<BladePair> pair = FindBladePairAt(silhouette, hidden, {front.far, back.far});
+      if (pair) of_gap.push_back(std::move(*pair));
     }
-  }
+    return of_gap;
+  });
+  std::vector<BladePair> pairs;
+  for (const std::vector<BladePair>& of_gap : of_gaps)
+    pairs.insert(pairs.end(), of_gap.begin(), of_gap.end());
   std::sort(pairs.begin(), pairs.end(), [](const BladePair& a, const BladePair& b) {
     return Likelihood(a) > Likelihood(b);
   });

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/image/disk.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 // wanted.
 class Spectrum {
  public:
+  Spectrum() = default;
   Spectrum(const cv::Mat& image, const cv::Size& padded) {
     cv::Mat larger = cv::Mat::zeros(padded, CV_32FC1);
     image.convertTo(larger(cv::Rect({0, 0}, image.size())), CV_32F, 1.0 / 255);
@@ -46,9 +48,12 @@ cv::Vec2i BestShift(const cv::Mat& thing, const cv::Mat& other) {
   const int most = static_cast<int>(kFurthest * std::max(size.width, size.height));
   const cv::Size padded(cv::getOptimalDFTSize(size.width + most),
                         cv::getOptimalDFTSize(size.height + most));
-  const Spectrum of_thing(thing_half, padded), of_other(other_half, padded);
-  const cv::Mat common = of_thing.CorrelatedWith(of_other);
-  const cv::Mat covered = of_thing.CorrelatedWith(of_thing);
+  const auto spectra =
+      ParallelMap(2, [&](int i) { return Spectrum(i == 0 ? thing_half : other_half, padded); });
+  const Spectrum &of_thing = spectra[0], &of_other = spectra[1];
+  const auto correlations =
+      ParallelMap(2, [&](int i) { return of_thing.CorrelatedWith(i == 0 ? of_other : of_thing); });
+  const cv::Mat &common = correlations[0], &covered = correlations[1];
   const double areas = (cv::sum(thing_half)[0] + cv::sum(other_half)[0]) / 255;
   cv::Vec2i best(0, 0);
   double most_alike = 0;
