@@ -152,6 +152,14 @@ class RowOfBackground {
   float c0_, c1_, c2_, c3_, x0_, dx_;
 };
 
+// fill(row) for every row, on several threads.
+template <typename Fill>
+void ForEachRow(int rows, const Fill& fill) {
+  ParallelForBands(rows, [&](int first, int last) {
+    for (int row = first; row < last; ++row) fill(row);
+  });
+}
+
 // The number of channels is known to the compiler: it takes many pixels at a time.
 template <int kChannels>
 cv::Mat DistanceIn(const cv::Mat& image, const BackgroundModel& background) {
@@ -204,9 +212,7 @@ cv::Mat AboveBackground(const cv::Mat& image, const BackgroundModel& background)
     float* out = above.ptr<float>(row);
     for (int col = 0; col < image.cols; ++col) out[col] = pixels[col] - expected(col);
   };
-  ParallelForBands(image.rows, [&](int first, int last) {
-    for (int row = first; row < last; ++row) fill_row(row);
-  });
+  ForEachRow(image.rows, fill_row);
   return above;
 }
 
@@ -239,9 +245,7 @@ cv::Mat DistanceFromShadedBackground(const cv::Mat& bgr, const BackgroundModel& 
       out[col] = std::sqrt(squared);
     }
   };
-  ParallelForBands(bgr.rows, [&](int first, int last) {
-    for (int row = first; row < last; ++row) fill_row(row);
-  });
+  ForEachRow(bgr.rows, fill_row);
   return distance;
 }
 
