@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "measured_blades.h"
 #include "vision/pivot/head_search.h"
@@ -74,6 +75,26 @@ TEST(FindPivot, SeesASmallHeadOnABroadJoint) {
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
   measured.Misplace(&measured.blades.upper, kAsidePx);
   EXPECT_EQ(found().source, "geometry") << "an engraved mark, then";
+}
+
+// Slender shanks, as wide as the mark: nothing but the blades tells that it is too small.
+TEST(FindPivot, TakesNoMarkForTheHeadThatIsFarSmallerThanTheBladesAreWide) {
+  constexpr int kMarkPx = 4, kFiner = 16, kBits = 4;
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.screw_visible = false;
+  const Measured measured{spec};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  cv::Mat grey = measured.photo.grey().clone();
+  const Vector2d at = kFiner * measured.truth.pivot_px;
+  const cv::Point center(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  cv::circle(grey, center, kMarkPx * kFiner, 30, cv::FILLED, cv::LINE_AA, kBits);
+  Scene scene = measured.scene;
+  scene.shank_width_px = 24;
+  for (const auto& [blade_px, source] : {std::pair(36, "screw"), std::pair(60, "geometry")}) {
+    scene.left.width_px = scene.right.width_px = blade_px;
+    const Pivot pivot = FindPivot(grey, measured.scale, {scene, edges, std::nullopt, std::nullopt});
+    EXPECT_EQ(pivot.source, source) << blade_px;
+  }
 }
 
 TEST(FindPivot, TakesAFaintHeadWithASlotAboutWhichTheEdgesMirrorEachOther) {
