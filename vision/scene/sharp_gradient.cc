@@ -40,8 +40,8 @@ cv::Mat GradientLength(const cv::Mat& lab, double sigma, int first, int last) {
   return length;
 }
 
-// Of values that are not negative, as std::nth_element would put it in the middle, but quicker: such
-// floats are in the order of their bits.
+// Of values in one piece of memory, none negative, as std::nth_element would put it in the middle,
+// but quicker: such floats are in the order of their bits.
 float Middle(const cv::Mat& values) {
   constexpr int kLowBits = 16;
   std::vector<int> counts(std::size_t{1} << kLowBits);
