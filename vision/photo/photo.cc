@@ -6,10 +6,11 @@
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <stdexcept>
 #include <string_view>
 
+#include "vision/image/reduced.h"
 #include "vision/parallel.h"
 #include "vision/photo/photo_codec.h"
 #include "vision/photo/photo_exif.h"
@@ -179,9 +180,7 @@ cv::Mat Photo::DecodeColour(int max_side, double slack) const {
   if (factor * slack >= 1) return colour;
   const cv::Size size(std::max(1, static_cast<int>(std::lround(colour.cols * factor))),
                       std::max(1, static_cast<int>(std::lround(colour.rows * factor))));
-  cv::Mat small;
-  cv::resize(colour, small, size, 0, 0, cv::INTER_AREA);
-  return small;
+  return Reduced(colour, size);
 }
 
 PicturePart Photo::DecodeColourPart(const cv::Rect& part_px) const {

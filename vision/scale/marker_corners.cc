@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
+#include "vision/image/reduced.h"
 #include "vision/parallel.h"
 #include "vision/scale/marker_fit.h"
 #include "vision/scale/marker_model.h"
@@ -70,8 +71,7 @@ int QuickReduction(const cv::Mat& grey) {
 std::vector<SeenMarker> FindAtReduction(const cv::Mat& grey, const ToneCurve& tone, int reduction) {
   cv::Mat small = grey;
   if (reduction > 1) {
-    const cv::Size size(std::max(1, grey.cols / reduction), std::max(1, grey.rows / reduction));
-    cv::resize(grey, small, size, 0, 0, cv::INTER_AREA);
+    small = Reduced(grey, {std::max(1, grey.cols / reduction), std::max(1, grey.rows / reduction)});
   }
   const Vector2d factor(static_cast<double>(grey.cols) / small.cols,
                         static_cast<double>(grey.rows) / small.rows);

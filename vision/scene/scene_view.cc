@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 
 #include "vision/image/block_means.h"
 #include "vision/image/lab_colour.h"
-#include "vision/parallel.h"
+#include "vision/image/reduced.h"
 #include "vision/scale/marker_paper.h"
 
 namespace bladecurve {
@@ -29,23 +28,6 @@ cv::Size SmallSize(const cv::Rect& area_px, int longest) {
   const double k = std::min(kMostEnlarged, longest / side);
   return {std::max(1, static_cast<int>(std::lround(area_px.width * k))),
           std::max(1, static_cast<int>(std::lround(area_px.height * k)))};
-}
-
-// Means over areas, in bands whose borders lie between rows of both.
-cv::Mat Reduced(const cv::Mat& image, const cv::Size& size) {
-  constexpr int kWorthAThread = 100;  // rows
-  const int alike = std::gcd(image.rows, size.height);
-  const int bands = std::min(alike, std::max(1, size.height / kWorthAThread));
-  cv::Mat reduced(size, image.type());
-  ParallelFor(bands, [&](int band) {
-    const auto rows = [&](const cv::Mat& of) {
-      const int step = of.rows / alike;
-      return of.rowRange(band * alike / bands * step, (band + 1) * alike / bands * step);
-    };
-    cv::Mat into = rows(reduced);
-    cv::resize(rows(image), into, into.size(), 0, 0, cv::INTER_AREA);
-  });
-  return reduced;
 }
 
 cv::Mat Resized(const cv::Mat& image, const cv::Size& size) {
