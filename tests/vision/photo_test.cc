@@ -201,6 +201,14 @@ TEST(PhotoLoad, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
   }
 }
 
+TEST(PhotoDecodeColour, IsALittleSmallerOnlyWhereTheFileGivesThat) {
+  constexpr double kSlack = 1.1, kLeast = 0.9;
+  const Photo photo = Photo::Load(Write("halved.jpg", Jpeg(Gradient(1531, 1023), {})));
+  EXPECT_EQ(photo.DecodeColour(800, kSlack, kLeast).cols, 766);  // half
+  EXPECT_EQ(photo.DecodeColour(800, kSlack).cols, 800);
+  EXPECT_EQ(photo.DecodeColour(900, kSlack, kLeast).cols, 900);
+}
+
 TEST(PhotoDecodeColour, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
   cv::Mat bgr;
   const cv::Mat across = Gradient(1531, 1023), down = Gradient(1023, 1531).t();

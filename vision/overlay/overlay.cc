@@ -47,9 +47,9 @@ Layout LayOut(const Photo& photo) {
 void PaintPhoto(const Photo& photo, const Layout& layout, cv::Mat image) {
   // Linear interpolation reduces by a quarter without losing pixels; a tenth fewer hardly show, and
   // may be half of the photograph's.
-  constexpr double kFewest = 0.9, kMost = 1.25;
-  const double wanted = kFewest * std::max(layout.photo_width, layout.photo_height);
-  const cv::Mat colour = photo.DecodeColour(static_cast<int>(std::ceil(wanted)), kMost / kFewest);
+  constexpr double kSlack = 1.25, kLeast = 0.9;
+  const cv::Mat colour =
+      photo.DecodeColour(std::max(layout.photo_width, layout.photo_height), kSlack, kLeast);
   const Vector2d displayed_size(photo.displayed_width(), photo.displayed_height());
   const bool turned = photo.metadata().orientation >= 5;
   const Vector2d stored_size =

@@ -171,10 +171,11 @@ cv::Rect Photo::Unmirrored(const cv::Rect& area_px) const {
 
 std::string Photo::Sha256() const { return Sha256Hex(bytes_); }
 
-cv::Mat Photo::DecodeColour(int max_side, double slack) const {
+cv::Mat Photo::DecodeColour(int max_side, double slack, double least) const {
   if (max_side < 1) throw std::invalid_argument("Photo::DecodeColour: max_side must be at least 1");
+  const auto least_side = static_cast<int>(std::ceil(least * max_side));
   const cv::Mat colour = Unmirrored(
-      Decode(bytes_, {.colour = true, .long_side = max_side, .num_threads = UsableThreads()})
+      Decode(bytes_, {.colour = true, .long_side = least_side, .num_threads = UsableThreads()})
           .picture.pixels);
   const double factor = static_cast<double>(max_side) / std::max(colour.cols, colour.rows);
   if (factor * slack >= 1) return colour;

@@ -32,8 +32,9 @@ class Photo {
 
   [[nodiscard]] const cv::Mat& grey() const { return grey_; }  // CV_8UC1, encoded (not linear) luma
   // BGR, CV_8UC3, stored orientation, longest side at most max_side; decoded on demand, as small as
-  // will do. Up to `slack` times that, >= 1, where that saves reducing it.
-  [[nodiscard]] cv::Mat DecodeColour(int max_side, double slack = 1) const;
+  // will do. Up to `slack` times that, >= 1, where that saves reducing it, and down to `least`
+  // times that, <= 1, if the file gives it so.
+  [[nodiscard]] cv::Mat DecodeColour(int max_side, double slack = 1, double least = 1) const;
   // At least that part of it in colour, BGR, CV_8UC3, in full size; of JPEG files in little more
   // time than it takes to read them up to its end.
   [[nodiscard]] PicturePart DecodeColourPart(const cv::Rect& part_px) const;
