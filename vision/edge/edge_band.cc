@@ -126,14 +126,17 @@ class RunScanner {
   double inner_px_, outer_px_;
 };
 
-float BilinearLight(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
+bool HasNeighbours(const cv::Mat& grey, const Vector2d& at) {
   const int x = cvFloor(at.x()), y = cvFloor(at.y());
-  if (x < 0 || y < 0 || x + 1 >= grey.cols || y + 1 >= grey.rows) {
-    return std::numeric_limits<float>::quiet_NaN();
-  }
+  return x >= 0 && y >= 0 && x + 1 < grey.cols && y + 1 < grey.rows;
+}
+
+// Between the four pixels about a place that has them.
+float BilinearLight(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
+  const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
   const auto u = static_cast<float>(at.x() - x), v = static_cast<float>(at.y() - y);
   const uchar* upper = grey.ptr<uchar>(y) + x;
-  const uchar* lower = grey.ptr<uchar>(y + 1) + x;
+  const uchar* lower = upper + grey.step1();
   const float top = tone.linear[upper[0]] * (1 - u) + tone.linear[upper[1]] * u;
   const float bottom = tone.linear[lower[0]] * (1 - u) + tone.linear[lower[1]] * u;
   return top * (1 - v) + bottom * v;
@@ -171,12 +174,17 @@ StraightBand StraightenBand(const cv::Mat& grey,
   band.columns = path.size();
   band.rows = static_cast<int>(std::lround(inner_px + outer_px)) + 1;
   band.first_across_px = -inner_px;
-  band.light.reserve(Index(band.columns) * Index(band.rows));
+  band.light.resize(Index(band.columns) * Index(band.rows));
+  float* light = band.light.data();
   for (int column = 0; column < band.columns; ++column) {
     const Vector2d& normal = path.normals[Index(column)];
     Vector2d at = path.points[Index(column)] + band.first_across_px * normal;
-    for (int row = 0; row < band.rows; ++row, at += normal)
-      band.light.push_back(BilinearLight(grey, tone, at));
+    const bool within = HasNeighbours(grey, at - normal) &&
+                        HasNeighbours(grey, at + static_cast<double>(band.rows) * normal);
+    for (int row = 0; row < band.rows; ++row, at += normal) {
+      *light++ = within || HasNeighbours(grey, at) ? BilinearLight(grey, tone, at)
+                                                   : std::numeric_limits<float>::quiet_NaN();
+    }
   }
   return band;
 }

@@ -16,12 +16,15 @@
 #include "vision/edge/edge_windows.h"
 #include "vision/image/blurred_step.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
 
 constexpr int kEnoughSamples = 400;  // samples; of longer edges every second or third tells as much
 constexpr int kStretchSamples = 4;   // samples whose pixels are kept together
+// Samples that are worth a thread; stretches and the samples of sketches go into it without rest.
+constexpr int kPartSamples = 96;
 constexpr double kFirstShare =
     0.7;  // of the blur expected: from below, a soft shadow is not taken for the edge
 
@@ -94,15 +97,26 @@ class Fitter {
   void Solve(const Round& round) {
     EdgeWindows windows(path_.size(), kStretchSamples * stride_);
     windows.Distrust(misfit_);
-    for (int i = 0; i < band_.size(); i += round.stride * stride_) {
-      for (const PreparedPixel& pixel : Prepare(i)) {
-        if (pixel.weight > 0) windows.Add(i, pixel.terms, pixel.light, pixel.weight);
-      }
-      glare_.AddUnknownLight(i, &windows);
-      if (round.last) kept_.push_back(prepared_);
-    }
+    if (round.last) kept_.resize(Index((band_.size() + stride_ - 1) / stride_));
+    const int part = kPartSamples * stride_;
+    ParallelFor((band_.size() + part - 1) / part, [&](int k) {
+      AddSamples(k * part, std::min((k + 1) * part, band_.size()), round, &windows);
+    });
     windows_ = std::move(windows);
     SolveWindows(round);
+  }
+
+  // Samples [first, last).
+  void AddSamples(int first, int last, const Round& round, EdgeWindows* windows) {
+    std::vector<PreparedPixel> prepared;
+    for (int i = first; i < last; i += round.stride * stride_) {
+      Prepare(i, &prepared);
+      for (const PreparedPixel& pixel : prepared) {
+        if (pixel.weight > 0) windows->Add(i, pixel.terms, pixel.light, pixel.weight);
+      }
+      glare_.AddUnknownLight(i, windows);
+      if (round.last) kept_[Index(i / stride_)] = prepared;
+    }
   }
 
   void SolveWindows(const Round& round) {
@@ -141,8 +155,8 @@ class Fitter {
   }
 
   // The pixels of sample i, the edge lying offsets_[i] out of the path.
-  const std::vector<PreparedPixel>& Prepare(int i) {
-    prepared_.clear();
+  void Prepare(int i, std::vector<PreparedPixel>* prepared) const {
+    prepared->clear();
     const BlurredStep step(path_.normals[Index(i)], blur_);
     const double variance = TotalBlurVariance(blur_);
     // Blur moves the half-way level of a curved edge towards its centre of curvature: variance /
@@ -152,33 +166,34 @@ class Fitter {
     for (int p = band_.begin[Index(i)]; p < band_.begin[Index(i) + 1]; ++p) {
       const double across = band_.pixels[Index(p)].across + shift;
       const StepSample sample = step.At(across);
-      prepared_.push_back(
+      prepared->push_back(
           {band_.pixels[Index(p)].light,
            glare_.Weight(i, sample.step, noise_),
            LevelTerms(sample, step.At(across + inner_px_[Index(i)]), across, variance)});
     }
     if (glare_.At(i)) {
       const bool known = !windows_.fits().empty();
-      Glare::HideWhite(known ? std::optional(windows_.LevelsAt(i)) : std::nullopt, &prepared_);
+      Glare::HideWhite(known ? std::optional(windows_.LevelsAt(i)) : std::nullopt, prepared);
     }
-    return prepared_;
   }
 
   // What the levels leave over on plain blade and plain background, and where it is too much.
   void MeasureNoise() {
     constexpr double kPlain = 0.02;  // share of the other side
     std::vector<double> blade, ground, misfit;
+    std::vector<PreparedPixel> prepared;
     for (int i = 0; i < band_.size(); i += 2 * kStretchSamples * stride_) {
       const LevelVector levels = windows_.LevelsAt(i);
       double squares = 0;
-      for (const PreparedPixel& pixel : Prepare(i)) {
+      Prepare(i, &prepared);
+      for (const PreparedPixel& pixel : prepared) {
         if (pixel.weight == 0) continue;
         const double rest = pixel.light - levels.dot(pixel.terms), step = pixel.terms[kGround];
         if (step < kPlain) blade.push_back(rest);
         if (step > 1 - kPlain) ground.push_back(rest);
         squares += pixel.weight * rest * rest;
       }
-      misfit.push_back(squares / std::max(static_cast<double>(prepared_.size()), 1.0));
+      misfit.push_back(squares / std::max(static_cast<double>(prepared.size()), 1.0));
     }
     if (!blade.empty()) noise_.blade = std::max(RobustSigma(blade), kLeastNoise);
     if (!ground.empty()) noise_.ground = std::max(RobustSigma(ground), kLeastNoise);
@@ -267,7 +282,6 @@ class Fitter {
   double face_moved_px_ = 0;                      // the blade's inner transition, towards the edge
   std::vector<double> inner_px_;                  // to the blade's inner transition, one per sample
   int stride_ = 1;                                // of the samples that are looked at
-  std::vector<PreparedPixel> prepared_;           // of one sample
   std::vector<std::vector<PreparedPixel>> kept_;  // of all in the last round
   LevelVector slopes_ = LevelVector::Zero();      // precision: which slopes are needed
   EdgeWindows windows_{0, kStretchSamples};

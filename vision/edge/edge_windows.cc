@@ -7,6 +7,7 @@
 
 #include "vision/edge/edge_path.h"
 #include "vision/image/robust_statistics.h"
+#include "vision/parallel.h"
 
 namespace bladecurve {
 namespace {
@@ -62,8 +63,12 @@ void EdgeWindows::SumStretches() {
 
 void EdgeWindows::Solve(const LevelVector& precision) {
   if (sums_.empty()) SumStretches();
-  fits_.clear();
-  for (const LevelMoments& sum : sums_) fits_.push_back(SolveLevels(sum, precision));
+  fits_.resize(sums_.size());
+  constexpr size_t kPart = 16;  // windows that are worth a thread
+  ParallelFor(static_cast<int>((sums_.size() + kPart - 1) / kPart), [&](int part) {
+    const size_t first = Index(part) * kPart, last = std::min(first + kPart, sums_.size());
+    for (size_t w = first; w < last; ++w) fits_[w] = SolveLevels(sums_[w], precision);
+  });
 }
 
 LevelVector EdgeWindows::SupportedSlopes() const { return SlopePrecision(fits_, kOverlap); }

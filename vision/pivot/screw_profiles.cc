@@ -50,7 +50,7 @@ std::optional<RimShape> FindCommonShape(const RimProfiles& profiles, const RimRo
   RimRows scaled = detrended * root_window.asDiagonal();
   const Eigen::VectorXd norms = scaled.rowwise().norm();
   const double typical = Median({norms.data(), norms.data() + norms.size()}) + 1e-12;
-  scaled.array().colwise() /= norms.array() + typical;
+  scaled.array().colwise() *= (norms.array() + typical).inverse();
   Eigen::VectorXd component = scaled.colwise().mean().transpose();
   Eigen::VectorXd shares(scaled.rows());
   for (int round = 0; round < 4 && component.norm() > 1e-12; ++round) {

@@ -109,8 +109,12 @@ NormalEquations WeightedEquations(const RimJacobian& jacobian,
                                   const ArrayXd& weight,
                                   const Eigen::VectorXd& shift_px) {
   const RimJacobian weighted = jacobian.array().colwise() * weight;
-  return {kDamping.asDiagonal().toDenseMatrix() + weighted.transpose().lazyProduct(jacobian),
-          weighted.transpose() * shift_px};
+  NormalEquations equations{kDamping.asDiagonal(), weighted.transpose() * shift_px};
+  for (Index i = 0; i < 5; ++i) {
+    for (Index k = 0; k <= i; ++k) equations.normal(i, k) += weighted.col(i).dot(jacobian.col(k));
+  }
+  equations.normal.triangularView<Eigen::StrictlyUpper>() = equations.normal.transpose();
+  return equations;
 }
 
 double MedianAbsoluteOf(const ArrayXd& values) {

@@ -90,10 +90,12 @@ std::optional<LocatedEdge> BeyondOther(const BladeView& view,
 // Where the edges lie on each other before they part, as along the top blade's edge over the other
 // blade, both are looked for from there on alone.
 void LeaveOtherBlade(const BladeView& view, BladeEdges* edges) {
-  const auto upper = BeyondOther(view, edges->upper, edges->lower, true);
-  const auto lower = BeyondOther(view, edges->lower, edges->upper, false);
-  if (upper) edges->upper = *upper;
-  if (lower) edges->lower = *lower;
+  const auto beyond = ParallelMap(2, [&](int blade) {
+    return blade == 0 ? BeyondOther(view, edges->upper, edges->lower, true)
+                      : BeyondOther(view, edges->lower, edges->upper, false);
+  });
+  if (beyond[0]) edges->upper = *beyond[0];
+  if (beyond[1]) edges->lower = *beyond[1];
 }
 
 // Cut off at white, the step of a glaring blade looks sharper than the other blade's, and lies too
