@@ -392,6 +392,45 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
   EXPECT_GT(measured.blades.lower.edge.ambiguity, kWarned);
 }
 
+// A blade beneath the other one, with a bevel so much darker than the ground of which the line on
+// the blade was taken for the edge; measured as the lower one.
+Measured WithDarkBevelBelow(double darker) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.upper_on_top = false;
+  Measured measured{spec};
+  cv::Mat picture = testing::Grained(testing::BrightenedAlongUpperEdge(
+      spec, 0, testing::kBevelPx, [&](double, double) { return -darker; }));
+  RestoreCrotch(measured, spec, &picture);
+  measured.Misplace(&measured.blades.upper, -testing::kBevelPx, -Measured::kStrong);
+  Measured::MakeClear(&measured.blades.upper);
+  measured.photo = Measured::PhotoOf(picture);
+  measured.scale.sheet.reset();
+  measured.TurnOver();
+  return measured;
+}
+
+// As if another line had been seen so far further out.
+void AddRival(LocatedEdge* edge, double outwards_px) {
+  edge->rival_px = outwards_px;
+  edge->rival_path_px.clear();
+  for (const LocatedEdgePoint& p : edge->points)
+    edge->rival_path_px.push_back(p.trend_px + outwards_px * p.normal);
+}
+
+TEST(RelocateUnlikeEdges, FindsTheEdgeAlongAFaintLineFurtherOutWithoutMarkers) {
+  constexpr double kDarker = 12, kClosePx = 0.5, kWarned = 0.5;
+  for (const double rival_px : {0.0, testing::kBevelPx - 1.5, -testing::kBevelPx}) {
+    Measured measured = WithDarkBevelBelow(kDarker);
+    LocatedBlade& lower = measured.blades.lower;
+    if (rival_px != 0) AddRival(&lower.edge, rival_px);
+    Relocate(&measured);
+    EXPECT_EQ(lower.moved.empty(), rival_px <= 0) << lower.moved;
+    if (rival_px <= 0) continue;
+    EXPECT_LT(FarFrom(measured.truth.upper, lower.used), kClosePx);
+    EXPECT_GT(lower.edge.ambiguity, kWarned);
+  }
+}
+
 std::vector<LocatedEdgePoint> DistalThird(const LocatedBlade& blade) {
   return {blade.used.end() - static_cast<std::ptrdiff_t>(blade.used.size() / 3), blade.used.end()};
 }

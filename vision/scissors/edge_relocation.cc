@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "vision/pivot/pivot_geometry.h"
+#include "vision/refused.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_difference.h"
@@ -241,6 +242,29 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   Replace(*found, kWhereMirrored, &inner);
 }
 
+// The inner one of edges that differ along its rival further out, however faint that is, if there
+// it mirrors the other by far better, both in how they pass by the pivot and in shape: hardly any
+// line but the border does both.
+void RelocateAlongRival(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kLeft = 0.4;                  // of the differences
+  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the rival, px
+  if (pivot.screw && IsFaint(*pivot.screw)) return;
+  const auto [inner, other] = InnerOne(pivot, blades);
+  const LocatedEdge& before = inner.edge;
+  if (before.rival_path_px.empty() || before.rival_px <= 0 || IsDoubtful(other.edge)) return;
+  const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
+  auto edge = view.InGrey(
+      {before.rival_path_px, inner.on_left, std::max(kLeast, kReach * before.rival_px)});
+  if (!edge) return;
+  const auto found = UnlessRefused([&] { return BladeWithEdge(search, *std::move(edge)); });
+  if (!found || !AreAlike(found->asymmetry) || LeftOfDifference(search, *found) > kLeft) return;
+  Blades instead = *blades;
+  InnerOne(pivot, &instead).blade = found->blade;
+  if (ShapeDifference(view, pivot, instead) > kLeft * ShapeDifference(view, pivot, *blades)) return;
+  Replace(*found, "along a line further out, where it mirrors the other one", &inner);
+  MarkAsAssumed(view, pivot, &inner);
+}
+
 void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
   if (RelocateLostOne(view, pivot, blades)) return;
@@ -252,6 +276,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
     if (NoneMoved(*blades)) RelocateFarClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) RelocateAlongRival(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
@@ -259,6 +284,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
+    if (NoneMoved(*blades)) RelocateAlongRival(view, pivot, blades);
     if (NoneMoved(*blades)) BorrowOuterOne(view, pivot, blades);
     if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {
