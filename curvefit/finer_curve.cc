@@ -3,7 +3,7 @@
 #include "curvefit/finer_curve.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -137,33 +137,46 @@ double Badness(const Eigen::VectorXd& values, const Eigen::VectorXd& ratio, doub
   return (spread.log() + values.array().square() / spread).sum();
 }
 
-// The likeliest variance of the jumps on a grid of quarter decades; 0 where none are seen.
+// The likeliest variance of the jumps, to 2 %: the band must not depend on where a grid happens to
+// lie. 0 where none are seen.
 double LikeliestVariance(const Eigen::VectorXd& values, const Eigen::VectorXd& ratio) {
-  if (ratio.size() == 0) return 0;
-  double best = 0, least = Badness(values, ratio, 0);
-  constexpr int kSteps = 60;  // from jumps that hide in the noise of the best-seen direction on
-  for (int k = 0; k < kSteps; ++k) {
-    const double variance = 0.01 / ratio.maxCoeff() * std::pow(10, 0.25 * k);
-    const double badness = Badness(values, ratio, variance);
-    if (badness < least) least = badness, best = variance;
+  constexpr double kStep = 0.25, kFinest = 0.01;  // decades
+  constexpr int kSteps = 60;
+  // From jumps that hide in the noise of the best-seen direction on.
+  const double first = std::log10(0.01 / ratio.maxCoeff());
+  const auto badness = [&](double decade) { return Badness(values, ratio, std::pow(10, decade)); };
+  double best = first, least = badness(first);
+  for (int k = 1; k < kSteps; ++k) {
+    const double decade = first + k * kStep, here = badness(decade);
+    if (here < least) least = here, best = decade;
   }
-  return best;
+  for (double step = kStep / 2; step > kFinest; step /= 2) {
+    for (const double decade : {best - step, best + step}) {
+      const double here = badness(decade);
+      if (here < least) least = here, best = decade;
+    }
+  }
+  return least < Badness(values, ratio, 0) ? std::pow(10, best) : 0;
 }
 
 // In the directions w in which both the edges' information and that of the jumps are diagonal:
-// shares from 1, where the edges decide, to 0, where the jumps' smallness does.
+// shares from 1, where the edges decide, to 0, where the jumps' smallness does. By singular values:
+// their squares lie many more decades apart than an eigensolver resolves.
 SmoothSpline Smooth(const EdgeEquations& equations, const Eigen::MatrixXd& jumps) {
   const Eigen::Index size = equations.right.size(), further = jumps.rows();
   const Eigen::LLT<Eigen::MatrixXd> llt(equations.matrix);
   const Eigen::MatrixXd white = llt.matrixL().solve(jumps.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(white * white.transpose());
-  const Eigen::MatrixXd w = llt.matrixU().solve(eigen.eigenvectors());
+  const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::FullPivHouseholderQRPreconditioner> svd(
+      white, Eigen::ComputeFullU);
+  const Eigen::MatrixXd w = llt.matrixU().solve(svd.matrixU());
   const Eigen::VectorXd values = w.transpose() * equations.right;
-  constexpr double kNone = 1e-300;  // information of the jumps where rounding leaves none
-  const Eigen::VectorXd ratio = eigen.eigenvalues().tail(further).cwiseMax(kNone).cwiseInverse();
-  const double variance = LikeliestVariance(values.tail(further), ratio);
+  constexpr double kRounding = 1e-15;  // of the largest; what lies below cannot be told from zero
+  const Eigen::VectorXd& singular = svd.singularValues();
+  const Eigen::VectorXd ratio =
+      singular.cwiseMax(kRounding * singular[0]).cwiseAbs2().cwiseInverse();
+  const double variance = LikeliestVariance(values.head(further), ratio);
   Eigen::VectorXd share = Eigen::VectorXd::Ones(size);
-  share.tail(further) = (variance * ratio).array() / (1 + variance * ratio.array());
+  share.head(further) = (variance * ratio).array() / (1 + variance * ratio.array());
   return {w * share.cwiseProduct(values), w * share.asDiagonal() * w.transpose(), share.sum()};
 }
 

@@ -204,6 +204,25 @@ TEST(Extreme, KnotsWithoutDataAreNotPlaced) {
             0.3);
 }
 
+// Where little is seen, as before a tip, the smoothness of the curve says what it may do.
+TEST(Extreme, BandsDoNotDependOnHowNumbersAreRounded) {
+  constexpr double kRounding = 1e-12, kSame = 0.01;
+  SimulatedPhoto photo;
+  photo.seen_end_mm = 52;
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    EdgePoints edges = Simulate(SplineScissors(3, {30, 45}), photo, seed);
+    const FamilyFit fit = FitBlade({edges}).recommended;
+    for (std::vector<EdgePoint>* edge : {&edges.upper, &edges.lower})
+      for (EdgePoint& p : *edge) p.point_mm *= 1 + kRounding;
+    const FamilyFit again = FitBlade({edges}).recommended;
+    EXPECT_NEAR(again.finer->effective_coefficients, fit.finer->effective_coefficients, kSame);
+    for (const double x : {20.0, 40.0, 50.0, 56.0}) {
+      const double sigma = CurveBand(fit).At(x, 0.5).phi_x;
+      EXPECT_NEAR(CurveBand(again).At(x, 0.5).phi_x, sigma, kSame * sigma) << seed << " at " << x;
+    }
+  }
+}
+
 TEST(Extreme, MoreKnotsThanPointsAreLimited) {
   SimulatedPhoto photo;
   photo.points = 8;

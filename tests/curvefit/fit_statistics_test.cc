@@ -109,6 +109,16 @@ TEST(FitStatistics, StatedSigmasHoldForWavyEdgesWhoseKnotsAreChosen) {
 
 // What edges cannot say: how far along the symmetry line the pivot is. With knots between the
 // pieces of the spline, which must not tie it to the edge.
+TEST(FitStatistics, StatedSigmasHoldWhereTheEdgeIsLostBeforeTheTip) {
+  SimulatedPhoto photo;
+  photo.seen_end_mm = 46;
+  const Tally tally = Draw(CurvedScissors(), {photo}, kDraws);
+  for (const double covered : {tally.covered, tally.slope_covered}) {
+    EXPECT_GT(covered, 0.93);
+    EXPECT_LT(covered, 0.98);  // 0.9995 of the slopes once, when rounding chose the band
+  }
+}
+
 TEST(FitStatistics, PivotThatIsHardlySeenStaysAsUncertain) {
   SimulatedPhoto photo;
   photo.pivot_sigma_mm = 0.3;

@@ -64,6 +64,7 @@ std::vector<EdgePoint> SeenEdge(const TrueScissors& scissors, const Exposure& e,
   std::vector<EdgePoint> edge;
   for (int i = 0; i < photo.points; ++i) {
     const double u = scissors.u_first_mm + i * step;
+    if (u > photo.seen_end_mm) break;
     const TruePoint t = EdgeAt(curve, PlaceOf(curve, u, photo.theta_rad), photo.theta_rad);
     const Eigen::Vector2d point(t.point.x(), side * t.point.y());
     const Eigen::Vector2d normal(side * t.along.y() * side, -side * t.along.x());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -34,7 +35,8 @@ struct TrueScissors {
 struct SimulatedPhoto {
   double theta_rad = 0.5;
   int points = 400;
-  double sigma_mm = 0.02;  // of an edge point
+  double seen_end_mm = std::numeric_limits<double>::infinity();  // beyond it the edge is lost
+  double sigma_mm = 0.02;                                        // of an edge point
   double pivot_sigma_mm = 0.05;
   // Along the symmetry line; far larger where the screw is not seen.
   std::optional<double> pivot_along_sigma_mm;
