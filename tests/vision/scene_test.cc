@@ -767,6 +767,7 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   };
   BladePair pair;
   pair.pivot = pivot;
+  pair.first.width = pair.second.width = 14;
   pair.first.tip = from_pivot(-15, kBladePx);
   pair.second.tip = from_pivot(15, kBladePx);
   for (const int side : {-1, 1}) {
@@ -776,6 +777,9 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   pair.shank_first = from_pivot(110, kShankPx);
   pair.shank_second = from_pivot(250, kShankPx);
   EXPECT_EQ(CountLimbsAhead(mask, pair), 2);
+  cv::Mat on_ruler = mask.clone();
+  cv::rectangle(on_ruler, {120, 290}, {455, 390}, 255, cv::FILLED);
+  EXPECT_EQ(CountLimbsAhead(on_ruler, pair), 2) << "too wide for a blade";
   draw(75, 0.5 * kBladePx, 14);
   EXPECT_EQ(CountLimbsAhead(mask, pair), 2) << "too short for a blade";
   draw(75, kBladePx, 14);

@@ -14,11 +14,12 @@ namespace {
 using Eigen::Vector2d;
 
 // Unit vectors from the pivot to the middles of all that the silhouette shows on the circle about
-// it, ahead of the pair.
+// it, ahead of the pair, but for what is wider than any blade: a ruler or a card beneath.
 std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
                                       const Vector2d& pivot,
                                       const Vector2d& bisector,
-                                      double radius_px) {
+                                      double radius_px,
+                                      double widest_px) {
   constexpr double kAhead = 2.0;                   // rad, to either side of the blades' bisector
   constexpr double kStepPx = 0.5, kNarrowest = 2;  // px; less is a thread, or the mask's raggedness
   const Vector2d across(-bisector.y(), bisector.x());
@@ -29,7 +30,9 @@ std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
   std::vector<Vector2d> directions;
   double from = -kAhead;  // of what the last places lie in
   const auto end_at = [&](double to) {
-    if ((to - from) * radius_px > kNarrowest) directions.push_back(direction(0.5 * (from + to)));
+    const double wide_px = (to - from) * radius_px;
+    if (wide_px > kNarrowest && wide_px < widest_px)
+      directions.push_back(direction(0.5 * (from + to)));
   };
   for (double at = -kAhead; at <= kAhead; at += step) {
     if (IsSetAt(filled, pivot + radius_px * direction(at))) continue;
@@ -52,12 +55,14 @@ bool AnyAlong(const Vector2d& limb, const std::vector<Vector2d>& directions, dou
 int CountLimbsAhead(const cv::Mat& filled, const BladePair& pair) {
   constexpr double kNear = 0.4;                          // of the shorter blade
   constexpr double kFurther[] = {0.55, 0.7};             // the same
+  constexpr double kWidest = 4;                          // times the wider blade's width
   constexpr double kSame = 0.98558, kAlongShank = 0.95;  // cosines: of 0.17 rad, and 0.32
   const Vector2d first = pair.first.tip - pair.pivot, second = pair.second.tip - pair.pivot;
   const Vector2d bisector = (first.normalized() + second.normalized()).normalized();
   const double length_px = std::min(first.norm(), second.norm());
+  const double widest_px = kWidest * std::max(pair.first.width, pair.second.width);
   const auto seen_at = [&](double share) {
-    return DirectionsAhead(filled, pair.pivot, bisector, share * length_px);
+    return DirectionsAhead(filled, pair.pivot, bisector, share * length_px, widest_px);
   };
   std::vector<Vector2d> limbs = seen_at(kNear);
   for (const double share : kFurther) {
