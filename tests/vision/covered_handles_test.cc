@@ -69,6 +69,20 @@ TEST(CutOffHandles, FindsTheGapBesideAnotherThing) {
   }));
 }
 
+// Blades that open little cross far before their joint.
+TEST(CutOffHandles, FindsTheJointFarBehindTheGap) {
+  constexpr int kCrossingX = 480;
+  cv::Mat mask = Blades();
+  cv::rectangle(mask, {20, 40}, {245, 360}, 255, cv::FILLED);
+  const std::vector<cv::Point> crossed{
+      {kCrotchX, kRow}, {kCrossingX, kRow - 43}, {kCrossingX, kRow + 43}};
+  cv::fillConvexPoly(mask, crossed, 255);
+  const std::vector<WithoutHandles> cut = CutIn(mask);
+  ASSERT_EQ(cut.size(), 1);
+  EXPECT_NEAR(CrotchOfBlades(cut[0]).x(), kCrossingX, 6);
+  EXPECT_LT((CrotchOfShanks(cut[0]) - Vector2d(252, kRow)).norm(), 12);
+}
+
 TEST(CutOffHandles, CutsWhereTheFrameDoes) {
   const cv::Mat mask = Blades();
   const std::vector<WithoutHandles> cut = CutIn(mask.colRange(250, mask.cols).clone());

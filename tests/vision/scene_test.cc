@@ -1099,9 +1099,11 @@ TEST(LadderResult, IsChosenAnewByOtherMethodsAndMasks) {
               seen("grey", 0.9),
               seen("grey", 0.8)};
   all.best = all.seen[3];
+  all.unresolved = {seen("flood", 0)};
   const LadderResult other_methods = ByOtherMethods(all, "grey");
   EXPECT_EQ(other_methods.best.mask.data, all.seen[1].mask.data);
   EXPECT_EQ(other_methods.seen.size(), 2U);
+  EXPECT_EQ(other_methods.unresolved.size(), 1U);
   const LadderResult other_masks = ByOtherMasks(all);
   EXPECT_EQ(other_masks.best.mask.data, all.seen[4].mask.data);
   EXPECT_EQ(other_masks.seen.size(), 2U);

@@ -95,7 +95,7 @@ std::optional<Joint> JointBehind(const Silhouette& silhouette,
                                  const std::optional<Vector2d>& pivot) {
   constexpr double kBehindPivot = 0.5;  // of the width
   constexpr double kWider = 1.4;        // times the narrowest: something else begins
-  constexpr double kFarthest = 1.5;     // of the blades from the gap on
+  constexpr double kFarthest = 2.5;     // of the blades from the gap on
   constexpr double kShortest = 0.5;     // of the width; a joint holds a screw
   constexpr double kMarginPx = 2;       // before that
   const Vector2d across(-gap.axis.y(), gap.axis.x());

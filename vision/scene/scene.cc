@@ -271,7 +271,9 @@ void SceneFinder::LookAgain() {
     return ByOtherMethods(all, first_->best.method);
   };
   if (++looks_ > 2) {
-    later_ = std::make_unique<LadderResult>(ByOtherMasks(*first_));
+    LadderResult by_masks = ByOtherMasks(*first_);
+    if (!ShowsWholeBlades(by_masks)) by_masks = ladder_->WithoutHandles(later_->unresolved);
+    later_ = std::make_unique<LadderResult>(std::move(by_masks));
   } else if (first_->climbed) {
     later_ = std::make_unique<LadderResult>(by_other_methods(*first_));
   } else {

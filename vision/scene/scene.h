@@ -67,7 +67,8 @@ class SceneFinder {
   [[nodiscard]] Scene Likeliest() const;
 
   // Looks past what showed the likeliest scene: first at all that the other methods show, then at
-  // the other masks of its own. Throws like the constructor where these show no blades.
+  // the other masks of its own, or, if these show no blades, at what handles may hide that lie on
+  // something. Throws like the constructor where that shows none.
   void LookAgain();
 
  private:

@@ -100,6 +100,7 @@ LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
   LadderResult next = Choose(kept);
   next.closed = result.closed;
   next.seen = std::move(kept);
+  next.unresolved = result.unresolved;
   return next;
 }
 

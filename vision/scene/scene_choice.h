@@ -14,7 +14,8 @@ struct LadderResult {
   bool several = false;         // two good pairs in different places
   bool closed = false;          // something looks like closed scissors, in several masks of a rung
   std::vector<Candidate> seen;  // by all rungs, the best among them
-  bool climbed = false;         // to the top
+  std::vector<Candidate> unresolved;  // masks in which handles may lie on something
+  bool climbed = false;               // to the top
 };
 
 // The best of the candidates, and whether they show a second pair.

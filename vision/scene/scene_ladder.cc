@@ -142,27 +142,34 @@ const std::vector<Rung>& SceneLadder::See(const std::string& stage,
 LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
   Rung all;
   LadderResult result = ClimbIn(plan, looked, &all);
-  const auto take = [&](std::vector<Candidate> candidates, int least_agreeing, const char* why) {
-    LadderResult other = Choose(candidates);
-    if (!ShowsWholeBlades(other) || other.best.agreeing < least_agreeing) return;
-    log_->Ran("scene-handles", why);
-    all.candidates = std::move(candidates);
-    other.climbed = true;
-    result = std::move(other);
-  };
   if (!ShowsWholeBlades(result)) {
     constexpr int kAgreeing = 2;
-    take(std::move(all.touching),
-         kAgreeing,
-         "nothing else shows blades: handles that touch may be parted");
+    LadderResult parted = Choose(all.touching);
+    if (ShowsWholeBlades(parted) && parted.best.agreeing >= kAgreeing) {
+      log_->Ran("scene-handles", "nothing else shows blades: handles that touch may be parted");
+      all.candidates = std::move(all.touching);
+      parted.climbed = true;
+      result = std::move(parted);
+    }
   }
   if (!ShowsWholeBlades(result)) {
-    constexpr int kAgreeing = 3, kAtPivot = 1;
-    take(RungWithoutHandles(looked->view, all.unresolved).candidates,
-         looked->view.hints.pivot_px ? kAtPivot : kAgreeing,
-         "nothing else shows blades: handles may lie on something");
+    LadderResult without = WithoutHandles(all.unresolved);
+    if (ShowsWholeBlades(without)) return without;
   }
   result.seen = std::move(all.candidates);
+  result.unresolved = std::move(all.unresolved);
+  return result;
+}
+
+LadderResult SceneLadder::WithoutHandles(const std::vector<Candidate>& unresolved) {
+  constexpr int kAgreeing = 3, kAtPivot = 1;
+  std::vector<Candidate> candidates = RungWithoutHandles(as_is_.view, unresolved).candidates;
+  LadderResult result = Choose(candidates);
+  const int least = as_is_.view.hints.pivot_px ? kAtPivot : kAgreeing;
+  if (!ShowsWholeBlades(result) || result.best.agreeing < least) return {};
+  log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
+  result.climbed = true;
+  result.seen = std::move(candidates);
   return result;
 }
 

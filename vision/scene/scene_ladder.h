@@ -28,6 +28,10 @@ class SceneLadder {
   // logs what ran and why. What was looked at before is not looked at again.
   [[nodiscard]] LadderResult Climb(Plan plan);
 
+  // What masks show in which handles may lie on something, these cut off; nothing, quality 0,
+  // unless several agree.
+  [[nodiscard]] LadderResult WithoutHandles(const std::vector<Candidate>& unresolved);
+
  private:
   // What the rungs showed in one view, as far as they have been looked at.
   struct Looked {
