@@ -780,6 +780,18 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   cv::Mat on_ruler = mask.clone();
   cv::rectangle(on_ruler, {120, 290}, {455, 390}, 255, cv::FILLED);
   EXPECT_EQ(CountLimbsAhead(on_ruler, pair), 2) << "too wide for a blade";
+  cv::Mat on_label = mask.clone();
+  std::vector<cv::Point> label;
+  for (const auto& [direction_deg, way_px] :
+       {std::pair{112, 60.0}, {90, 200.0}, {130, 200.0}, {120, 60.0}}) {
+    const Eigen::Vector2d corner = from_pivot(direction_deg, way_px);
+    label.emplace_back(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
+  }
+  cv::fillConvexPoly(on_label, label, 255);
+  BladePair with_straight_shanks = pair;
+  with_straight_shanks.shank_first = from_pivot(160, kShankPx);
+  with_straight_shanks.shank_second = from_pivot(200, kShankPx);
+  EXPECT_EQ(CountLimbsAhead(on_label, with_straight_shanks), 2) << "reaches behind the blades";
   draw(75, 0.5 * kBladePx, 14);
   EXPECT_EQ(CountLimbsAhead(mask, pair), 2) << "too short for a blade";
   draw(75, kBladePx, 14);

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Vector2d;
 
 // Unit vectors from the pivot to the middles of all that the silhouette shows on the circle about
-// it, ahead of the pair, but for what is wider than any blade: a ruler or a card beneath.
+// it, wholly ahead of the pair, but for what is wider than any blade: a ruler or a card beneath,
+// which mostly reaches behind it as well.
 std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
                                       const Vector2d& pivot,
                                       const Vector2d& bisector,
@@ -31,7 +32,7 @@ std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
   double from = -kAhead;  // of what the last places lie in
   const auto end_at = [&](double to) {
     const double wide_px = (to - from) * radius_px;
-    if (wide_px > kNarrowest && wide_px < widest_px)
+    if (from > -kAhead && wide_px > kNarrowest && wide_px < widest_px)
       directions.push_back(direction(0.5 * (from + to)));
   };
   for (double at = -kAhead; at <= kAhead; at += step) {
@@ -39,7 +40,6 @@ std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
     end_at(at);
     from = at + step;
   }
-  end_at(kAhead);
   return directions;
 }
 
