@@ -100,10 +100,14 @@ void ParallelAside(const std::function<void()>& work, const std::function<void()
   if (of_aside) std::rethrow_exception(of_aside);
 }
 
+void ParallelForBands(int rows, int band, const std::function<void(int, int)>& work) {
+  ParallelFor((rows + band - 1) / band,
+              [&](int i) { work(i * band, std::min((i + 1) * band, rows)); });
+}
+
 void ParallelForBands(int rows, const std::function<void(int, int)>& work) {
   constexpr int kBand = 128;
-  ParallelFor((rows + kBand - 1) / kBand,
-              [&](int band) { work(band * kBand, std::min((band + 1) * kBand, rows)); });
+  ParallelForBands(rows, kBand, work);
 }
 
 int UsableThreads() { return usable_threads; }

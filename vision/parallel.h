@@ -24,8 +24,9 @@ void ParallelFor(int count, const std::function<void(int)>& work);
 // this work has one thread. If both throw, the exception of `work` is rethrown.
 void ParallelAside(const std::function<void()>& work, const std::function<void()>& aside);
 
-// work(first, last) for bands of rows that together are [0, rows), by that ParallelFor; as high as
-// is worth a thread.
+// work(first, last) for bands of rows that together are [0, rows), by that ParallelFor; each of
+// `band` rows, or, of pictures, as high as is worth a thread, the last one perhaps less.
+void ParallelForBands(int rows, int band, const std::function<void(int, int)>& work);
 void ParallelForBands(int rows, const std::function<void(int, int)>& work);
 
 // make(0) .. make(count - 1), made by that ParallelFor.

@@ -780,6 +780,9 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   cv::Mat on_ruler = mask.clone();
   cv::rectangle(on_ruler, {120, 290}, {455, 390}, 255, cv::FILLED);
   EXPECT_EQ(CountLimbsAhead(on_ruler, pair), 2) << "too wide for a blade";
+  cv::Mat beside_card = mask.clone();
+  cv::rectangle(beside_card, {310, 290}, {380, 400}, 255, cv::FILLED);
+  EXPECT_EQ(CountLimbsAhead(beside_card, pair), 2) << "too wide, and wholly ahead";
   cv::Mat on_label = mask.clone();
   std::vector<cv::Point> label;
   for (const auto& [direction_deg, way_px] :

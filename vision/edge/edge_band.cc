@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "vision/image/bilinear.h"
+
 namespace bladecurve {
 namespace {
 
@@ -126,12 +128,7 @@ class RunScanner {
   double inner_px_, outer_px_;
 };
 
-bool HasNeighbours(const cv::Mat& grey, const Vector2d& at) {
-  const int x = cvFloor(at.x()), y = cvFloor(at.y());
-  return x >= 0 && y >= 0 && x + 1 < grey.cols && y + 1 < grey.rows;
-}
-
-// Between the four pixels about a place that has them.
+// Between the four pixels about a place within the picture.
 float BilinearLight(const cv::Mat& grey, const ToneCurve& tone, const Vector2d& at) {
   const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
   const auto u = static_cast<float>(at.x() - x), v = static_cast<float>(at.y() - y);
@@ -179,11 +176,11 @@ StraightBand StraightenBand(const cv::Mat& grey,
   for (int column = 0; column < band.columns; ++column) {
     const Vector2d& normal = path.normals[Index(column)];
     Vector2d at = path.points[Index(column)] + band.first_across_px * normal;
-    const bool within = HasNeighbours(grey, at - normal) &&
-                        HasNeighbours(grey, at + static_cast<double>(band.rows) * normal);
+    const bool within = LiesWithin(grey, at - normal) &&
+                        LiesWithin(grey, at + static_cast<double>(band.rows) * normal);
     for (int row = 0; row < band.rows; ++row, at += normal) {
-      *light++ = within || HasNeighbours(grey, at) ? BilinearLight(grey, tone, at)
-                                                   : std::numeric_limits<float>::quiet_NaN();
+      *light++ = within || LiesWithin(grey, at) ? BilinearLight(grey, tone, at)
+                                                : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return band;

@@ -98,9 +98,8 @@ class Fitter {
     EdgeWindows windows(path_.size(), kStretchSamples * stride_);
     windows.Distrust(misfit_);
     if (round.last) kept_.resize(Index((band_.size() + stride_ - 1) / stride_));
-    const int part = kPartSamples * stride_;
-    ParallelFor((band_.size() + part - 1) / part, [&](int k) {
-      AddSamples(k * part, std::min((k + 1) * part, band_.size()), round, &windows);
+    ParallelForBands(band_.size(), kPartSamples * stride_, [&](int first, int last) {
+      AddSamples(first, last, round, &windows);
     });
     windows_ = std::move(windows);
     SolveWindows(round);

@@ -64,10 +64,9 @@ void EdgeWindows::SumStretches() {
 void EdgeWindows::Solve(const LevelVector& precision) {
   if (sums_.empty()) SumStretches();
   fits_.resize(sums_.size());
-  constexpr size_t kPart = 16;  // windows that are worth a thread
-  ParallelFor(static_cast<int>((sums_.size() + kPart - 1) / kPart), [&](int part) {
-    const size_t first = Index(part) * kPart, last = std::min(first + kPart, sums_.size());
-    for (size_t w = first; w < last; ++w) fits_[w] = SolveLevels(sums_[w], precision);
+  constexpr int kPart = 16;  // windows that are worth a thread
+  ParallelForBands(static_cast<int>(sums_.size()), kPart, [&](int first, int last) {
+    for (int w = first; w < last; ++w) fits_[Index(w)] = SolveLevels(sums_[Index(w)], precision);
   });
 }
 

@@ -30,14 +30,11 @@ std::vector<Vector2d> DirectionsAhead(const cv::Mat& filled,
   const double step = kStepPx / radius_px;
   std::vector<Vector2d> directions;
   double from = -kAhead;  // of what the last places lie in
-  const auto end_at = [&](double to) {
-    const double wide_px = (to - from) * radius_px;
-    if (from > -kAhead && wide_px > kNarrowest && wide_px < widest_px)
-      directions.push_back(direction(0.5 * (from + to)));
-  };
   for (double at = -kAhead; at <= kAhead; at += step) {
     if (IsSetAt(filled, pivot + radius_px * direction(at))) continue;
-    end_at(at);
+    const double wide_px = (at - from) * radius_px;
+    if (from > -kAhead && wide_px > kNarrowest && wide_px < widest_px)
+      directions.push_back(direction(0.5 * (from + at)));
     from = at + step;
   }
   return directions;

@@ -272,7 +272,7 @@ void SceneFinder::LookAgain() {
   };
   if (++looks_ > 2) {
     LadderResult by_masks = ByOtherMasks(*first_);
-    if (!ShowsWholeBlades(by_masks)) by_masks = ladder_->WithoutHandles(later_->unresolved);
+    if (!ShowsWholeBlades(by_masks)) by_masks = ladder_->WithoutHandles(Shown().unresolved);
     later_ = std::make_unique<LadderResult>(std::move(by_masks));
   } else if (first_->climbed) {
     later_ = std::make_unique<LadderResult>(by_other_methods(*first_));

@@ -94,6 +94,16 @@ Rung RungWithoutHandles(const SceneView& view, const std::vector<Candidate>& unr
   return rung;
 }
 
+// The best of the candidates with all of them, if it shows whole blades and so many masks agree on
+// it; else nothing.
+LadderResult IfEnoughAgree(std::vector<Candidate> candidates, int least) {
+  LadderResult result = Choose(candidates);
+  if (!ShowsWholeBlades(result) || result.best.agreeing < least) return {};
+  result.climbed = true;
+  result.seen = std::move(candidates);
+  return result;
+}
+
 const char* WhyRun(bool full, const char* need) { return full ? "all ways are wanted" : need; }
 
 }  // namespace
@@ -142,13 +152,12 @@ const std::vector<Rung>& SceneLadder::See(const std::string& stage,
 LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
   Rung all;
   LadderResult result = ClimbIn(plan, looked, &all);
+  result.seen = std::move(all.candidates);
   if (!ShowsWholeBlades(result)) {
     constexpr int kAgreeing = 2;
-    LadderResult parted = Choose(all.touching);
-    if (ShowsWholeBlades(parted) && parted.best.agreeing >= kAgreeing) {
+    LadderResult parted = IfEnoughAgree(std::move(all.touching), kAgreeing);
+    if (ShowsWholeBlades(parted)) {
       log_->Ran("scene-handles", "nothing else shows blades: handles that touch may be parted");
-      all.candidates = std::move(all.touching);
-      parted.climbed = true;
       result = std::move(parted);
     }
   }
@@ -156,20 +165,16 @@ LadderResult SceneLadder::ClimbNoting(Plan plan, Looked* looked) {
     LadderResult without = WithoutHandles(all.unresolved);
     if (ShowsWholeBlades(without)) return without;
   }
-  result.seen = std::move(all.candidates);
   result.unresolved = std::move(all.unresolved);
   return result;
 }
 
 LadderResult SceneLadder::WithoutHandles(const std::vector<Candidate>& unresolved) {
   constexpr int kAgreeing = 3, kAtPivot = 1;
-  std::vector<Candidate> candidates = RungWithoutHandles(as_is_.view, unresolved).candidates;
-  LadderResult result = Choose(candidates);
-  const int least = as_is_.view.hints.pivot_px ? kAtPivot : kAgreeing;
-  if (!ShowsWholeBlades(result) || result.best.agreeing < least) return {};
-  log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
-  result.climbed = true;
-  result.seen = std::move(candidates);
+  LadderResult result = IfEnoughAgree(RungWithoutHandles(as_is_.view, unresolved).candidates,
+                                      as_is_.view.hints.pivot_px ? kAtPivot : kAgreeing);
+  if (ShowsWholeBlades(result))
+    log_->Ran("scene-handles", "nothing else shows blades: handles may lie on something");
   return result;
 }
 

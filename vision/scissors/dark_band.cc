@@ -27,15 +27,22 @@ bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
   return edge.ambiguity > least_ambiguity && std::abs(edge.rival_px) >= narrowest;
 }
 
-// The edge once more along one side of the dark band beside it, if it is seen there, and not just
-// a faint line of the ground's.
+// The edge once more along one side of the dark band beside it, however faint, if it is seen there.
+std::optional<LocatedEdge> AlongLine(const BladeView& view,
+                                     std::vector<Vector2d> line_px,
+                                     const LocatedEdge& edge,
+                                     bool left) {
+  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
+  return view.InGrey(
+      {std::move(line_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+}
+
+// The same, but not just a faint line of the ground's.
 std::optional<LocatedEdge> AlongSide(const BladeView& view,
                                      std::vector<Vector2d> side_px,
                                      const LocatedEdge& edge,
                                      bool left) {
-  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
-  std::optional<LocatedEdge> along =
-      view.InGrey({std::move(side_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+  std::optional<LocatedEdge> along = AlongLine(view, std::move(side_px), edge, left);
   return along && !HardlyShowsBeside(*along, edge) ? std::move(along) : std::nullopt;
 }
 
@@ -146,6 +153,10 @@ void ConfirmWhereNothingCasts(const BladeView& view,
   if (!HasDarkBand(*edge) || edge->rival_px > 0 || other.ambiguity > kFaint) return;
   if (CastsNone(view, view.OuterSide(!left), *edge, edge->rival_px, kSomewhatSameWay))
     DropRival(edge);
+}
+
+std::optional<LocatedEdge> AlongRival(const BladeView& view, const LocatedEdge& edge, bool left) {
+  return AlongLine(view, edge.rival_path_px, edge, left);
 }
 
 std::optional<LocatedEdge> WithinBand(const BladeView& view, const LocatedEdge& edge, bool left) {

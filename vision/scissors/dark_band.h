@@ -44,6 +44,11 @@ void ConfirmWhereNothingCasts(const BladeView& view,
                               LocatedEdge* edge,
                               bool left);
 
+// The edge along its rival, however faint, if it is seen there.
+[[nodiscard]] std::optional<LocatedEdge> AlongRival(const BladeView& view,
+                                                    const LocatedEdge& edge,
+                                                    bool left);
+
 // The edge along the inner side of a dark band beside it, however faint, if it is seen there.
 [[nodiscard]] std::optional<LocatedEdge> WithinBand(const BladeView& view,
                                                     const LocatedEdge& edge,

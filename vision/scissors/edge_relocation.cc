@@ -10,6 +10,7 @@
 #include "vision/refused.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
+#include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/mirrored_blade.h"
@@ -246,15 +247,13 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
 // it mirrors the other by far better, both in how they pass by the pivot and in shape: hardly any
 // line but the border does both.
 void RelocateAlongRival(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kLeft = 0.4;                  // of the differences
-  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the rival, px
+  constexpr double kLeft = 0.4;  // of the differences
   if (pivot.screw && IsFaint(*pivot.screw)) return;
   const auto [inner, other] = InnerOne(pivot, blades);
   const LocatedEdge& before = inner.edge;
   if (before.rival_path_px.empty() || before.rival_px <= 0 || IsDoubtful(other.edge)) return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
-  auto edge = view.InGrey(
-      {before.rival_path_px, inner.on_left, std::max(kLeast, kReach * before.rival_px)});
+  auto edge = AlongRival(view, before, inner.on_left);
   if (!edge) return;
   const auto found = UnlessRefused([&] { return BladeWithEdge(search, *std::move(edge)); });
   if (!found || !AreAlike(found->asymmetry) || LeftOfDifference(search, *found) > kLeft) return;
