@@ -780,17 +780,19 @@ TEST(CountLimbsAhead, CountsTheBladesOfPairsThatLieOnEachOther) {
   cv::Mat on_ruler = mask.clone();
   cv::rectangle(on_ruler, {120, 290}, {455, 390}, 255, cv::FILLED);
   EXPECT_EQ(CountLimbsAhead(on_ruler, pair), 2) << "too wide for a blade";
-  cv::Mat beside_card = mask.clone();
-  cv::rectangle(beside_card, {310, 290}, {380, 400}, 255, cv::FILLED);
-  EXPECT_EQ(CountLimbsAhead(beside_card, pair), 2) << "too wide, and wholly ahead";
-  cv::Mat on_label = mask.clone();
-  std::vector<cv::Point> label;
-  for (const auto& [direction_deg, way_px] :
-       {std::pair{112, 60.0}, {90, 200.0}, {130, 200.0}, {120, 60.0}}) {
-    const Eigen::Vector2d corner = from_pivot(direction_deg, way_px);
-    label.emplace_back(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
-  }
-  cv::fillConvexPoly(on_label, label, 255);
+  const auto on = [&](const std::vector<std::pair<double, double>>& corners) {
+    cv::Mat lying_on = mask.clone();
+    std::vector<cv::Point> outline;
+    for (const auto& [direction_deg, way_px] : corners) {
+      const Eigen::Vector2d corner = from_pivot(direction_deg, way_px);
+      outline.emplace_back(static_cast<int>(corner.x()), static_cast<int>(corner.y()));
+    }
+    cv::fillConvexPoly(lying_on, outline, 255);
+    return lying_on;
+  };
+  const cv::Mat on_card = on({{40, 40}, {40, 220}, {90, 220}, {90, 40}});
+  EXPECT_EQ(CountLimbsAhead(on_card, pair), 2) << "too wide, and wholly ahead";
+  const cv::Mat on_label = on({{112, 60}, {90, 200}, {130, 200}, {120, 60}});
   BladePair with_straight_shanks = pair;
   with_straight_shanks.shank_first = from_pivot(160, kShankPx);
   with_straight_shanks.shank_second = from_pivot(200, kShankPx);
