@@ -12,11 +12,13 @@
 #include <fstream>
 #include <functional>
 #include <opencv2/imgproc.hpp>
+#include <random>
 #include <string>
 #include <vector>
 // jpeglib.h needs FILE and size_t declared before it.
 #include <jpeglib.h>
 
+#include "jpeg_images.h"
 #include "process_folder.h"
 #include "vision/parallel.h"
 #include "vision/photo/png_writer.h"
@@ -43,60 +45,6 @@ cv::Mat Gradient(int width, int height) {
       grey.at<uchar>(y, x) = static_cast<uchar>(10 + (150 * x) / width + (80 * y) / height);
   }
   return grey;
-}
-
-struct JpegSettings {
-  J_COLOR_SPACE space = JCS_GRAYSCALE;
-  int channels = 1;
-  int density = 0;  // dots per inch
-  std::string exif;
-  cv::Size luma_per_chroma = {2, 2};  // of colour pictures
-  bool progressive = false;
-};
-
-// Every channel of a pixel gets the grey value.
-std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
-  jpeg_compress_struct info = {};
-  jpeg_error_mgr errors;
-  info.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&info);
-  unsigned char* buffer = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&info, &buffer, &size);
-  info.image_width = static_cast<JDIMENSION>(grey.cols);
-  info.image_height = static_cast<JDIMENSION>(grey.rows);
-  info.input_components = settings.channels;
-  info.in_color_space = settings.space;
-  jpeg_set_defaults(&info);
-  jpeg_set_quality(&info, 98, TRUE);
-  if (settings.channels == 3) {
-    info.comp_info[0].h_samp_factor = settings.luma_per_chroma.width;
-    info.comp_info[0].v_samp_factor = settings.luma_per_chroma.height;
-  }
-  if (settings.progressive) jpeg_simple_progression(&info);
-  if (settings.density > 0) {
-    info.density_unit = 1;
-    info.X_density = info.Y_density = static_cast<UINT16>(settings.density);
-  }
-  jpeg_start_compress(&info, TRUE);
-  if (!settings.exif.empty()) {
-    jpeg_write_marker(&info,
-                      JPEG_APP0 + 1,
-                      reinterpret_cast<const JOCTET*>(settings.exif.data()),
-                      static_cast<unsigned>(settings.exif.size()));
-  }
-  std::vector<JSAMPLE> row(static_cast<size_t>(grey.cols * settings.channels));
-  for (int y = 0; y < grey.rows; ++y) {
-    for (size_t i = 0; i < row.size(); ++i)
-      row[i] = grey.at<uchar>(y, static_cast<int>(i) / settings.channels);
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&info, &pointer, 1);
-  }
-  jpeg_finish_compress(&info);
-  std::string bytes(reinterpret_cast<char*>(buffer), size);
-  jpeg_destroy_compress(&info);
-  std::free(buffer);
-  return bytes;
 }
 
 std::string Short(int value) { return {static_cast<char>(value), static_cast<char>(value >> 8)}; }
@@ -192,8 +140,11 @@ cv::Mat GreyOn(int num_threads, const fs::path& path) {
 
 TEST(PhotoLoad, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
   cv::Mat picture = Gradient(1531, 1023);
-  cv::circle(picture, {700, 716}, 200, 30, 7);  // where the upper and the lower rows meet
-  for (const JpegSettings& settings : {JpegSettings{}, JpegSettings{JCS_RGB, 3, 0, ""}}) {
+  cv::circle(picture, {700, 614}, 200, 30, 7);  // where the upper and the lower rows meet
+  const JpegSettings colour{JCS_RGB, 3, 0, ""};
+  JpegSettings restarted = colour;
+  restarted.restart_rows = 3;
+  for (const JpegSettings& settings : {JpegSettings{}, colour, restarted}) {
     const fs::path path = Write("large.jpg", Jpeg(picture, settings));
     const cv::Mat whole = GreyOn(1, path), in_two = GreyOn(2, path);
     EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
@@ -209,23 +160,37 @@ TEST(PhotoDecodeColour, IsALittleSmallerOnlyWhereTheFileGivesThat) {
   EXPECT_EQ(photo.DecodeColour(900, kSlack, kLeast).cols, 900);
 }
 
+cv::Mat ColourOn(int num_threads, const Photo& photo, int least_side) {
+  cv::Mat colour;
+  ParallelFor(1, num_threads, [&](int) { colour = photo.DecodeColour(least_side, 2); });
+  return colour;
+}
+
+// Upright ones, too: their lower rows are no longer than they are wide.
 TEST(PhotoDecodeColour, ReadsLargePicturesAlikeOnAnyNumberOfThreads) {
-  cv::Mat bgr;
+  cv::Mat lying, upright;
   const cv::Mat across = Gradient(1531, 1023), down = Gradient(1023, 1531).t();
-  cv::merge(std::vector{across, down, across}, bgr);
-  cv::circle(bgr, {700, 716}, 200, {200, 20, 20}, 7);  // where the upper and the lower rows meet
-  const Photo photo = Photo::Load(Write("large-colour.jpg", EncodeJpeg(bgr, 92)));
-  for (const int side : {1531, 700, 300}) {
-    const auto decoded = [&](int num_threads) {
-      cv::Mat colour;
-      ParallelFor(1, num_threads, [&](int) { colour = photo.DecodeColour(side, 2); });
-      return colour;
-    };
-    const cv::Mat whole = decoded(1), in_two = decoded(2);
-    EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
-    cv::Mat expected;
-    cv::resize(bgr, expected, whole.size(), 0, 0, cv::INTER_AREA);
-    EXPECT_LT(cv::norm(whole, expected, cv::NORM_L1) / static_cast<double>(3 * whole.total()), 3);
+  cv::merge(std::vector{across, down, across}, lying);
+  cv::circle(lying, {700, 614}, 200, {200, 20, 20}, 7);  // where the upper and the lower rows meet
+  cv::rotate(lying, upright, cv::ROTATE_90_CLOCKWISE);
+  for (const cv::Mat& bgr : {lying, upright}) {
+    const Photo photo = Photo::Load(Write("large-colour.jpg", EncodeJpeg(bgr, 92)));
+    for (const int side : {1531, 700, 300, 150}) {
+      const cv::Mat whole = ColourOn(1, photo, side), in_two = ColourOn(2, photo, side);
+      ASSERT_EQ(whole.size(), in_two.size());
+      EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0);
+      cv::Mat expected;
+      cv::resize(bgr, expected, whole.size(), 0, 0, cv::INTER_AREA);
+      EXPECT_LT(cv::norm(whole, expected, cv::NORM_L1) / static_cast<double>(3 * whole.total()), 3);
+    }
+  }
+}
+
+// With hardly a row of blocks above where they might be divided.
+TEST(PhotoLoad, ReadsLargePicturesOfFewRowsAlikeOnAnyNumberOfThreads) {
+  for (const int height : {17, 30, 50}) {
+    const fs::path path = Write("flat.jpg", Jpeg(Gradient(60000, height), {JCS_RGB, 3, 0, ""}));
+    EXPECT_EQ(cv::norm(GreyOn(1, path), GreyOn(2, path), cv::NORM_INF), 0) << height;
   }
 }
 
@@ -238,6 +203,35 @@ TEST(PhotoLoad, RefusesTruncatedLargePicturesOnAnyNumberOfThreads) {
     EXPECT_THROW(GreyOn(1, path), Refused);
     EXPECT_THROW(GreyOn(2, path), Refused);
   }
+}
+
+// The pixels of a file that need not be whole; empty where it is refused.
+cv::Mat GreyUnlessRefused(int num_threads, const fs::path& path) {
+  try {
+    return GreyOn(num_threads, path);
+  } catch (const Refused&) {
+    return {};
+  }
+}
+
+// Some damage goes unnoticed: the codes of other pixels.
+TEST(PhotoLoad, ReadsDamagedLargePicturesAlikeOnAnyNumberOfThreads) {
+  const std::string jpeg = Jpeg(Gradient(1531, 1023), {JCS_RGB, 3, 0, ""});
+  std::mt19937 random(1);
+  int num_read = 0, num_refused = 0;
+  for (int i = 0; i < 60; ++i) {
+    std::string damaged = jpeg;
+    const size_t place = jpeg.size() / 50 + random() % (jpeg.size() / 2);
+    damaged[place] = static_cast<char>(damaged[place] ^ (1 << random() % 8));
+    const fs::path path = Write("damaged-large.jpg", damaged);
+    const cv::Mat whole = GreyUnlessRefused(1, path), in_two = GreyUnlessRefused(2, path);
+    ASSERT_EQ(whole.size(), in_two.size()) << "byte " << place;
+    ++(whole.empty() ? num_refused : num_read);
+    if (whole.empty()) continue;
+    EXPECT_EQ(cv::norm(whole, in_two, cv::NORM_INF), 0) << "byte " << place;
+  }
+  EXPECT_GT(num_read, 3);
+  EXPECT_GT(num_refused, 3);
 }
 
 TEST(PhotoLoad, RefusesDecompressionBombs) {

@@ -7,10 +7,15 @@
 #include <jpeglib.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "vision/parallel.h"
+#include "vision/photo/jpeg_lower_part.h"
 #include "vision/photo/photo_codec.h"
 
 namespace bladecurve {
@@ -62,7 +67,7 @@ struct Decompressor {
 // One file being read. Stays where it is: libjpeg keeps pointers into it.
 class JpegReader {
  public:
-  explicit JpegReader(std::string_view bytes) {
+  explicit JpegReader(std::string_view bytes) : bytes_(bytes) {
     info_.err = jpeg_std_error(&errors_.base);
     errors_.base.error_exit = Fail;
     errors_.base.emit_message = Warn;
@@ -81,17 +86,23 @@ class JpegReader {
   PicturePart Decode(const DecodeOptions& options);
   // Whether parts of the picture may be decoded beside each other, and quicker than all in turn.
   bool Divisible();
+  // The upper rows' share of two parts that take about as long.
+  double UpperShare() const;
   FileFacts Facts() const;
 
   // Decoding in steps; Decode takes all of them. What the pixels will look like as they are stored:
   struct Stored {
     cv::Size size;
     PixelLayout layout;
-    int block_rows = 0;  // of pictures with halved colour; whole ones are skipped best
+    int mcu_rows = 0;  // rows of pixels in a row of MCUs
   };
-  Stored Begin(const DecodeOptions& options);
-  // Once: rows [first, last) into the same rows of `stored`.
-  void DecodeRows(int first, int last, cv::Mat* stored);
+  Stored Begin(bool colour, int eighths);
+  // How much smaller that may be.
+  int EighthsFor(int long_side) const;
+  void Skip(int rows);
+  void Read(cv::Mat* rows);  // the next ones, as many as it has
+  // The picture from a row of MCUs on, behind another one: see LowerPartOfJpeg.
+  [[nodiscard]] std::optional<std::string> From(int mcu_row) const;
 
  private:
   // `step` must hold no object with a destructor while it calls libjpeg: a jump would skip it.
@@ -101,13 +112,11 @@ class JpegReader {
     step();
   }
   PixelLayout ChooseLayout(bool colour);
-  void ChooseSize(int long_side);
   // The part, in pixels as they are decoded, grown to whole blocks of columns; what lies before its
   // first row is passed over.
   cv::Rect GoTo(const cv::Rect& part);
-  // From the next row to be decoded to `last`, into rows that begin with `first`.
-  void ReadRows(int first, int last, cv::Mat* pixels);
 
+  std::string_view bytes_;
   Decompressor owner_;
   jpeg_decompress_struct& info_ = owner_.info;
   jpeg_progress_mgr progress_ = {};
@@ -125,30 +134,31 @@ PixelLayout JpegReader::ChooseLayout(bool colour) {
 }
 
 // The smallest of 1/8, 1/4, 1/2, 1 that keeps the longest side.
-void JpegReader::ChooseSize(int long_side) {
-  info_.scale_num = 8;
-  info_.scale_denom = 8;
-  if (long_side <= 0) return;
+int JpegReader::EighthsFor(int long_side) const {
+  int smallest = 8;
+  if (long_side <= 0) return smallest;
   const int full = std::max(width(), height());
-  for (int eighths : {4, 2, 1}) {
-    if ((full * eighths + 7) / 8 >= long_side) info_.scale_num = static_cast<unsigned>(eighths);
+  for (const int eighths : {4, 2, 1}) {
+    if ((full * eighths + 7) / 8 >= long_side) smallest = eighths;
   }
+  return smallest;
 }
 
-JpegReader::Stored JpegReader::Begin(const DecodeOptions& options) {
-  const PixelLayout layout = ChooseLayout(options.colour);
-  ChooseSize(options.long_side);
+JpegReader::Stored JpegReader::Begin(bool colour, int eighths) {
+  const PixelLayout layout = ChooseLayout(colour);
+  info_.scale_num = static_cast<unsigned>(eighths);
+  info_.scale_denom = 8;
   Guarded([&] { jpeg_start_decompress(&info_); });
   return {{static_cast<int>(info_.output_width), static_cast<int>(info_.output_height)},
           layout,
-          2 * static_cast<int>(info_.scale_num)};
+          McuRowHeight(info_) * eighths / 8};
 }
 
 PicturePart JpegReader::Decode(const DecodeOptions& options) {
-  const Stored all = Begin(options);
+  const Stored all = Begin(options.colour, EighthsFor(options.long_side));
   const cv::Rect part = options.part.empty() ? cv::Rect({0, 0}, all.size) : GoTo(options.part);
   cv::Mat stored = NewPicture(part.size(), CV_8UC(ChannelsOf(all.layout)));
-  ReadRows(part.y, part.br().y, &stored);
+  Read(&stored);
   return {ConvertPixels(stored, all.layout, options.colour), part.tl()};
 }
 
@@ -165,10 +175,15 @@ cv::Rect JpegReader::GoTo(const cv::Rect& part) {
   return {static_cast<int>(column), first.y, static_cast<int>(columns), last.y - first.y};
 }
 
-void JpegReader::ReadRows(int first, int last, cv::Mat* pixels) {
+void JpegReader::Skip(int rows) {
+  Guarded([&] { jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(rows)); });
+}
+
+void JpegReader::Read(cv::Mat* rows) {
+  assert(rows->empty() || rows->cols == static_cast<int>(info_.output_width));
   Guarded([&] {
-    while (info_.output_scanline < static_cast<JDIMENSION>(last)) {
-      JSAMPROW row = pixels->ptr<uchar>(static_cast<int>(info_.output_scanline) - first);
+    for (int i = 0; i < rows->rows; ++i) {
+      JSAMPROW row = rows->ptr<uchar>(i);
       jpeg_read_scanlines(&info_, &row, 1);
     }
   });
@@ -182,9 +197,12 @@ bool JpegReader::Divisible() {
          1.0 * width() * height() > kWorthAThread;
 }
 
-void JpegReader::DecodeRows(int first, int last, cv::Mat* stored) {
-  Guarded([&] { jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first)); });
-  ReadRows(0, last, stored);
+// Where codes are not counted, the lower part's reader decodes those of the upper rows as well: two
+// thirds of the work of decoding them, more where the picture is decoded smaller.
+double JpegReader::UpperShare() const { return HasCountableCodes(info_) ? 0.6 : 0.7; }
+
+std::optional<std::string> JpegReader::From(int mcu_row) const {
+  return LowerPartOfJpeg(bytes_, info_, mcu_row);
 }
 
 FileFacts JpegReader::Facts() const {
@@ -202,24 +220,64 @@ FileFacts JpegReader::Facts() const {
   return facts;
 }
 
-// Two readers, one for the upper rows, one for the lower. Huffman codes cannot be entered half-way,
-// so the second reads those of the upper rows as well: two thirds of the work of decoding them,
-// more where the picture is decoded smaller.
-cv::Mat DecodeInTwo(std::string_view bytes, const DecodeOptions& options, JpegReader* upper) {
-  constexpr double kUpperShare = 0.7;  // both take about as long
-  const JpegReader::Stored all = upper->Begin(options);
-  const int seam =
-      static_cast<int>(kUpperShare * all.size.height) / all.block_rows * all.block_rows;
+// Where and how a picture is divided.
+struct Division {
+  int mcu_row = 0;  // the first of the lower part
+  bool colour = false;
+  int eighths = 8;
+};
+
+// The lower rows from a part of the file that has them alone. Returns the row of MCUs above, which
+// it has as well, for the colours between, and which should be as the upper rows' reader has it.
+cv::Mat ReadPart(std::string_view part, const Division& division, cv::Mat* rows) {
+  JpegReader reader(part);
+  const int mcu_rows = reader.Begin(division.colour, division.eighths).mcu_rows;
+  cv::Mat above(mcu_rows, rows->cols, rows->type());
+  reader.Skip(mcu_rows);
+  reader.Read(&above);
+  reader.Read(rows);
+  return above;
+}
+
+// The same; nothing, and the rows from the whole file, where there is no such part.
+cv::Mat ReadLower(std::string_view bytes, const Division& division, cv::Mat* rows) {
+  JpegReader all(bytes);
+  const int mcu_rows = all.Begin(division.colour, division.eighths).mcu_rows;
+  try {
+    const auto part = division.mcu_row > 0 ? all.From(division.mcu_row - 1) : std::nullopt;
+    if (part) return ReadPart(*part, division, rows);
+  } catch (const std::runtime_error&) {
+    // If the whole file is damaged as well, its reader says so below.
+  }
+  all.Skip(division.mcu_row * mcu_rows);
+  all.Read(rows);
+  return {};
+}
+
+// Two readers, one for the upper rows, one for the lower. Nothing if they do not agree about what
+// both decoded.
+cv::Mat DecodeInTwo(std::string_view bytes, const DecodeOptions& options) {
+  JpegReader upper(bytes);
+  const int eighths = upper.EighthsFor(options.long_side);
+  const JpegReader::Stored all = upper.Begin(options.colour, eighths);
+  const int mcu_row = static_cast<int>(upper.UpperShare() * all.size.height) / all.mcu_rows;
+  const int seam = mcu_row * all.mcu_rows;
   cv::Mat stored = NewPicture(all.size, CV_8UC(ChannelsOf(all.layout)));
+  cv::Mat upper_rows = stored.rowRange(0, seam), above;
+  cv::Mat lower_rows = stored.rowRange(seam, all.size.height);
   ParallelFor(2, [&](int part) {
     if (part == 0) {
-      upper->DecodeRows(0, seam, &stored);
+      upper.Read(&upper_rows);
     } else {
-      JpegReader lower(bytes);
-      lower.Begin(options);
-      lower.DecodeRows(seam, all.size.height, &stored);
+      above = ReadLower(bytes, {mcu_row, options.colour, eighths}, &lower_rows);
     }
   });
+  if (!above.empty()) {
+    const int half = all.mcu_rows / 2;  // the first one mixes its colours with those above itself
+    const cv::Mat by_lower = above.rowRange(half, all.mcu_rows);
+    const cv::Mat by_upper = stored.rowRange(seam - all.mcu_rows + half, seam);
+    if (cv::norm(by_lower, by_upper, cv::NORM_INF) > 0) return {};
+  }
   return ConvertPixels(stored, all.layout, options.colour);
 }
 
@@ -229,8 +287,9 @@ DecodedPhoto DecodeJpeg(std::string_view bytes, const DecodeOptions& options) {
   JpegReader reader(bytes);
   const cv::Size size(reader.width(), reader.height());
   CheckPhotoSize(size.width, size.height);
-  const bool in_two = options.part.empty() && options.num_threads >= 2 && reader.Divisible();
-  return {in_two ? PicturePart(DecodeInTwo(bytes, options, &reader)) : reader.Decode(options),
+  const bool divided = options.part.empty() && options.num_threads >= 2 && reader.Divisible();
+  const cv::Mat in_two = divided ? DecodeInTwo(bytes, options) : cv::Mat();
+  return {in_two.empty() ? reader.Decode(options) : PicturePart(in_two),
           size.width,
           size.height,
           reader.Facts()};
