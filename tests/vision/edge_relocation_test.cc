@@ -431,6 +431,61 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeAlongAFaintLineFurtherOutWithoutMarkers) {
   }
 }
 
+// A line on the blade, however clear, is left for the edge further out, but not where that is
+// unlike the other one in shape, or hardly more like it than the line is, or passes by the pivot
+// unlike.
+TEST(RelocateUnlikeEdges, LeavesAClearLineForTheEdgeThatMirrorsTheOtherOneWithoutMarkers) {
+  constexpr double kClosePx = 0.2, kWarned = 0.5, kPivotSigmaPx = 0.3;
+  struct Other {
+    double bulges_px = 0, from = 0.3;
+    double pivot_off_px = 0;
+  };
+  const auto is_left = [&](double inside_px, const Other& other) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& lower = measured.blades.lower;
+    const Vector2d& axis = measured.truth.axis_px;
+    measured.pivot.covariance_px2 *= kPivotSigmaPx * kPivotSigmaPx;
+    measured.pivot.point_px += other.pivot_off_px * Vector2d(-axis.y(), axis.x());
+    measured.Misplace(&lower, -inside_px, Measured::kStrong);
+    Bulge(&measured, &measured.blades.upper, other.from, 1, other.bulges_px);
+    for (LocatedBlade* blade : {&measured.blades.upper, &lower}) Measured::MakeClear(blade);
+    measured.scale.sheet.reset();
+    EXPECT_TRUE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    const bool is_found = FarFrom(measured.truth.lower, lower.used) < kClosePx;
+    EXPECT_EQ(is_found, !lower.moved.empty());
+    EXPECT_TRUE(!is_found || lower.edge.ambiguity > kWarned);
+    return is_found;
+  };
+  EXPECT_TRUE(is_left(3, {}));
+  EXPECT_TRUE(is_left(8, {}));
+  EXPECT_FALSE(is_left(16, {})) << "no bevel is as wide";
+  EXPECT_FALSE(is_left(8, {.bulges_px = 2.7}));
+  EXPECT_FALSE(is_left(2, {.bulges_px = -2}));
+  EXPECT_FALSE(is_left(10, {.bulges_px = 3, .from = 0, .pivot_off_px = 2}));
+}
+
+// The line on the blade stands out more; of a dim bevel it hides the edge, unless that is looked
+// for not as far as to the line, and no pivot may have parted them. What is seen there is where it
+// had to be: it may lie further off.
+TEST(RelocateUnlikeEdges, FindsTheEdgeOfABevelWhoseLineStandsOutMoreWithoutMarkers) {
+  constexpr double kClosePx = 0.6, kWarned = 0.5, kUnsure = 0.2, kPivotSigmaPx = 20;
+  for (const double darker : {16.0, 40.0}) {
+    const bool is_dim = darker < 20;
+    for (const bool knows_pivot : {true, false}) {
+      Measured measured = WithDarkBevelBelow(darker);
+      const LocatedBlade& lower = measured.blades.lower;
+      if (!knows_pivot) measured.pivot.covariance_px2 *= kPivotSigmaPx * kPivotSigmaPx;
+      Relocate(&measured);
+      EXPECT_EQ(lower.moved.empty(), is_dim && !knows_pivot);
+      if (lower.moved.empty()) continue;
+      EXPECT_LT(FarFrom(measured.truth.upper, lower.used), kClosePx) << darker;
+      EXPECT_GT(lower.edge.ambiguity, kWarned) << darker;
+      EXPECT_EQ(TotalSigma(lower.edge) > kUnsure * testing::kBevelPx, is_dim) << darker;
+    }
+  }
+}
+
 std::vector<LocatedEdgePoint> DistalThird(const LocatedBlade& blade) {
   return {blade.used.end() - static_cast<std::ptrdiff_t>(blade.used.size() / 3), blade.used.end()};
 }
@@ -786,7 +841,10 @@ TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
     EXPECT_TRUE(relocated(upper, kAsidePx, kFarHigher, 0.6)) << upper;
     EXPECT_TRUE(relocated(upper, -kFarPx, kHigher, 0.6)) << upper;
     EXPECT_FALSE(relocated(upper, kFarPx, kFarHigher, 0.6)) << upper;
-    EXPECT_FALSE(relocated(upper, -kAsidePx, kHigher, 0.1)) << upper << ": it was as clear before";
+    EXPECT_FALSE(relocated(upper, kAsidePx, kFarHigher, 0.1))
+        << upper << ": it was as clear before";
+    EXPECT_TRUE(relocated(upper, -kAsidePx, kHigher, 0.1))
+        << upper << ": now it is the mirror image";
   }
 }
 

@@ -28,13 +28,15 @@ bool HasDarkBand(const LocatedEdge& edge, double least_ambiguity) {
 }
 
 // The edge once more along one side of the dark band beside it, however faint, if it is seen there.
+// reach: of the way to the other side.
 std::optional<LocatedEdge> AlongLine(const BladeView& view,
                                      std::vector<Vector2d> line_px,
                                      const LocatedEdge& edge,
-                                     bool left) {
-  constexpr double kReach = 0.65, kLeast = 1.6;  // of the way to the other side, px
+                                     bool left,
+                                     double reach) {
+  constexpr double kLeastPx = 1.6;
   return view.InGrey(
-      {std::move(line_px), left, std::max(kLeast, kReach * std::abs(edge.rival_px))});
+      {std::move(line_px), left, std::max(kLeastPx, reach * std::abs(edge.rival_px))});
 }
 
 // The same, but not just a faint line of the ground's.
@@ -42,7 +44,8 @@ std::optional<LocatedEdge> AlongSide(const BladeView& view,
                                      std::vector<Vector2d> side_px,
                                      const LocatedEdge& edge,
                                      bool left) {
-  std::optional<LocatedEdge> along = AlongLine(view, std::move(side_px), edge, left);
+  constexpr double kReach = 0.65;
+  std::optional<LocatedEdge> along = AlongLine(view, std::move(side_px), edge, left, kReach);
   return along && !HardlyShowsBeside(*along, edge) ? std::move(along) : std::nullopt;
 }
 
@@ -156,7 +159,8 @@ void ConfirmWhereNothingCasts(const BladeView& view,
 }
 
 std::optional<LocatedEdge> AlongRival(const BladeView& view, const LocatedEdge& edge, bool left) {
-  return AlongLine(view, edge.rival_path_px, edge, left);
+  constexpr double kReach = 0.3;  // what is faint is no more than where it was expected
+  return AlongLine(view, edge.rival_path_px, edge, left, kReach);
 }
 
 std::optional<LocatedEdge> WithinBand(const BladeView& view, const LocatedEdge& edge, bool left) {

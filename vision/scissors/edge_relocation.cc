@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
@@ -243,24 +244,52 @@ void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades)
   Replace(*found, kWhereMirrored, &inner);
 }
 
-// The inner one of edges that differ along its rival further out, however faint that is, if there
-// it mirrors the other by far better, both in how they pass by the pivot and in shape: hardly any
-// line but the border does both.
-void RelocateAlongRival(const BladeView& view, const Pivot& pivot, Blades* blades) {
-  constexpr double kLeft = 0.4;  // of the differences
+// Whether a blade, found anew, mirrors the other by far better: in how they pass by the pivot and
+// in shape. Hardly any line but the border does both.
+bool MirrorsFarBetter(const MirroredBladeSearch& search,
+                      const RelocatedBlade& found,
+                      const Blades& blades) {
+  constexpr double kLeft = 0.4;     // of the difference
+  constexpr double kAlike = 0.004;  // of the length; seen at a slant, the right ones keep to 0.003
+  if (!AreAlike(found.asymmetry)) return false;
+  Blades instead = blades;
+  OneOf(&instead, found.blade.on_left == blades.upper.on_left).blade = found.blade;
+  const double unlike = ShapeDifference(search.view, search.pivot, instead);
+  return unlike > 0 &&  // or nothing can be compared
+         unlike < std::min(kAlike, kLeft * ShapeDifference(search.view, search.pivot, blades));
+}
+
+// A blade along its rival further out, however faint that is.
+std::optional<RelocatedBlade> LookAlongRival(const MirroredBladeSearch& search,
+                                             const LocatedBlade& blade) {
+  if (blade.edge.rival_px <= 0) return std::nullopt;
+  std::optional<LocatedEdge> edge = AlongRival(search.view, blade.edge, blade.on_left);
+  if (!edge) return std::nullopt;
+  return UnlessRefused([&] { return BladeWithEdge(search, *std::move(edge)); });
+}
+
+// The inner one of edges that differ, by no more than bevels are wide, where the blade's colour
+// ends, or along its rival, if there it mirrors the other by far better.
+void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kWidestBevel = 0.05;            // of the length
+  constexpr double kShortOf = 0.5, kDoubt = 0.25;  // of the way
   if (pivot.screw && IsFaint(*pivot.screw)) return;
+  if (std::abs(pivot.asymmetry) > kWidestBevel) return;
   const auto [inner, other] = InnerOne(pivot, blades);
-  const LocatedEdge& before = inner.edge;
-  if (before.rival_path_px.empty() || before.rival_px <= 0 || IsDoubtful(other.edge)) return;
+  if (IsDoubtful(other.edge)) return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
-  auto edge = AlongRival(view, before, inner.on_left);
-  if (!edge) return;
-  const auto found = UnlessRefused([&] { return BladeWithEdge(search, *std::move(edge)); });
-  if (!found || !AreAlike(found->asymmetry) || LeftOfDifference(search, *found) > kLeft) return;
-  Blades instead = *blades;
-  InnerOne(pivot, &instead).blade = found->blade;
-  if (ShapeDifference(view, pivot, instead) > kLeft * ShapeDifference(view, pivot, *blades)) return;
-  Replace(*found, "along a line further out, where it mirrors the other one", &inner);
+  const auto if_better = [&](std::optional<RelocatedBlade> found) {
+    return found && MirrorsFarBetter(search, *found, *blades) ? std::move(found) : std::nullopt;
+  };
+  auto found = if_better(LookInColours(search, WayPx(search)));
+  if (!found) found = if_better(LookAlongRival(search, inner));
+  if (!found && DifferBeyondPivot(pivot, *blades)) {
+    // Not as far as to the line that is doubted. So close, all that is seen mirrors the other one.
+    found = if_better(LookInColours(search, kShortOf * WayPx(search)));
+    if (found) AddSigma(&found->blade.edge, kDoubt * WayPx(search));
+  }
+  if (!found) return;
+  Replace(*found, "further out, where it mirrors the other one", &inner);
   MarkAsAssumed(view, pivot, &inner);
 }
 
@@ -275,7 +304,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
     if (NoneMoved(*blades)) RelocateFarClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
-    if (NoneMoved(*blades)) RelocateAlongRival(view, pivot, blades);
+    if (NoneMoved(*blades)) RelocateFurtherOut(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
@@ -283,7 +312,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (LeaveBothShadows(view, pivot, blades)) return;
     RelocateClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
-    if (NoneMoved(*blades)) RelocateAlongRival(view, pivot, blades);
+    if (NoneMoved(*blades)) RelocateFurtherOut(view, pivot, blades);
     if (NoneMoved(*blades)) BorrowOuterOne(view, pivot, blades);
     if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {

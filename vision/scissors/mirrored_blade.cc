@@ -102,6 +102,13 @@ std::optional<RelocatedBlade> LookInShadow(const MirroredBladeSearch& search,
   return IfItFacesGap(search, [&] { return *std::move(edge); });
 }
 
+std::optional<RelocatedBlade> LookInColours(const MirroredBladeSearch& search, double search_px) {
+  std::optional<LocatedEdge> edge =
+      search.view.InColoursAlone(GuessWithin(search, search_px), /*shade=*/0);
+  if (!edge) return std::nullopt;
+  return IfItFacesGap(search, [&] { return *std::move(edge); });
+}
+
 std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search) {
   constexpr double kNearest = 5, kShortOf = 0.6;   // px; of the way to where it was
   constexpr double kMuchLess = 0.5, kSame = 0.85;  // of the difference before, where there is one

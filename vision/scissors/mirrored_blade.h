@@ -44,6 +44,10 @@ struct MirroredBladeSearch {
                                                          double search_px,
                                                          Shadow shadow);
 
+// The same in colours, wherever grey shows it.
+[[nodiscard]] std::optional<RelocatedBlade> LookInColours(const MirroredBladeSearch& search,
+                                                          double search_px);
+
 // The blade where the other one puts it, if it is seen there and the two are alike then.
 [[nodiscard]] std::optional<RelocatedBlade> LookWhereMirrored(const MirroredBladeSearch& search);
 
