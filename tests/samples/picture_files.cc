@@ -7,10 +7,11 @@
 #include <jpeglib.h>
 #include <png.h>
 
-#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <vector>
+
+#include "tests/vision/jpeg_images.h"
 
 namespace bladecurve {
 namespace {
@@ -112,30 +113,9 @@ cv::Mat RowsOf(const cv::Mat& bgr, PngKind kind) {
 }  // namespace
 
 std::string JpegFile(const cv::Mat& picture) {
-  cv::Mat stored = AsStoredInJpeg(picture);
-  jpeg_compress_struct jpeg{};
-  jpeg_error_mgr errors{};
-  jpeg.err = jpeg_std_error(&errors);
-  jpeg_create_compress(&jpeg);
-  unsigned char* bytes = nullptr;
-  unsigned long size = 0;
-  jpeg_mem_dest(&jpeg, &bytes, &size);
-  jpeg.image_width = static_cast<JDIMENSION>(stored.cols);
-  jpeg.image_height = static_cast<JDIMENSION>(stored.rows);
-  jpeg.input_components = stored.channels();
-  jpeg.in_color_space = ColourSpace(stored.channels());
-  jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 95, TRUE);
-  jpeg_start_compress(&jpeg, TRUE);
-  while (jpeg.next_scanline < jpeg.image_height) {
-    JSAMPROW row = stored.ptr(static_cast<int>(jpeg.next_scanline));
-    jpeg_write_scanlines(&jpeg, &row, 1);
-  }
-  jpeg_finish_compress(&jpeg);
-  jpeg_destroy_compress(&jpeg);
-  std::string file(reinterpret_cast<char*>(bytes), size);
-  std::free(bytes);
-  return file;
+  const int channels = picture.channels();
+  return Jpeg(AsStoredInJpeg(picture),
+              {.space = ColourSpace(channels), .channels = channels, .quality = 95});
 }
 
 std::string WithOrientation(const std::string& jpeg, int orientation) {

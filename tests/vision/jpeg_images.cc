@@ -7,7 +7,10 @@
 
 namespace bladecurve {
 
-std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
+std::string Jpeg(const cv::Mat& picture, const JpegSettings& settings) {
+  cv::Mat stored = picture;
+  if (picture.channels() != settings.channels)
+    cv::merge(std::vector<cv::Mat>(static_cast<size_t>(settings.channels), picture), stored);
   jpeg_compress_struct info = {};
   jpeg_error_mgr errors;
   info.err = jpeg_std_error(&errors);
@@ -15,8 +18,8 @@ std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
   unsigned char* buffer = nullptr;
   unsigned long size = 0;
   jpeg_mem_dest(&info, &buffer, &size);
-  info.image_width = static_cast<JDIMENSION>(grey.cols);
-  info.image_height = static_cast<JDIMENSION>(grey.rows);
+  info.image_width = static_cast<JDIMENSION>(stored.cols);
+  info.image_height = static_cast<JDIMENSION>(stored.rows);
   info.input_components = settings.channels;
   info.in_color_space = settings.space;
   jpeg_set_defaults(&info);
@@ -39,12 +42,9 @@ std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings) {
                       reinterpret_cast<const JOCTET*>(settings.exif.data()),
                       static_cast<unsigned>(settings.exif.size()));
   }
-  std::vector<JSAMPLE> row(static_cast<size_t>(grey.cols * settings.channels));
-  for (int y = 0; y < grey.rows; ++y) {
-    for (size_t i = 0; i < row.size(); ++i)
-      row[i] = grey.at<uchar>(y, static_cast<int>(i) / settings.channels);
-    JSAMPROW pointer = row.data();
-    jpeg_write_scanlines(&info, &pointer, 1);
+  while (info.next_scanline < info.image_height) {
+    JSAMPROW row = stored.ptr(static_cast<int>(info.next_scanline));
+    jpeg_write_scanlines(&info, &row, 1);
   }
   jpeg_finish_compress(&info);
   std::string bytes(reinterpret_cast<char*>(buffer), size);

@@ -22,7 +22,7 @@ struct JpegSettings {
   int restart_rows = 0;     // of MCUs between restart markers; 0: none
 };
 
-// Every channel of a pixel gets the grey value.
-[[nodiscard]] std::string Jpeg(const cv::Mat& grey, const JpegSettings& settings);
+// picture: the channels as settings.space has them, or one, whose value every channel gets.
+[[nodiscard]] std::string Jpeg(const cv::Mat& picture, const JpegSettings& settings);
 
 }  // namespace bladecurve

@@ -168,10 +168,8 @@ cv::Rect JpegReader::GoTo(const cv::Rect& part) {
   const cv::Point last((part.br().x * eighths + 7) / 8, (part.br().y * eighths + 7) / 8);
   auto column = static_cast<JDIMENSION>(first.x),
        columns = static_cast<JDIMENSION>(last.x - first.x);
-  Guarded([&] {
-    jpeg_crop_scanline(&info_, &column, &columns);
-    jpeg_skip_scanlines(&info_, static_cast<JDIMENSION>(first.y));
-  });
+  Guarded([&] { jpeg_crop_scanline(&info_, &column, &columns); });
+  Skip(first.y);
   return {static_cast<int>(column), first.y, static_cast<int>(columns), last.y - first.y};
 }
 
