@@ -33,10 +33,9 @@ Foot FootOn(const std::vector<Eigen::Vector2d>& line, const Eigen::Vector2d& p) 
   return best;
 }
 
-// Standard uncertainty of the mean of the upper edge's points: what they share, and what correlated
+// Standard uncertainty of the mean of an edge's points: what they share, and what correlated
 // neighbours leave.
-double MeanOffsetSigmaPx(const PhotoMeasurement& photo) {
-  const std::vector<EdgePoint>& points = photo.edges.upper;
+double MeanOffsetSigmaPx(const std::vector<EdgePoint>& points, const PhotoMeasurement& photo) {
   double variance_mm2 = 0;
   for (const EdgePoint& point : points) variance_mm2 += point.sigma_mm * point.sigma_mm;
   const double count = static_cast<double>(points.size());
@@ -48,18 +47,27 @@ double MeanOffsetSigmaPx(const PhotoMeasurement& photo) {
   return std::sqrt(own_mm2 + shared_mm * shared_mm) / photo.mm_per_px;
 }
 
-QuantityErrors EdgeErrors(const PhotoMeasurement& photo, const SceneTruth& truth) {
+// As located: in mm with sigmas, and in the photograph.
+struct LocatedEdge {
+  const std::vector<EdgePoint>& points;
+  const std::vector<Eigen::Vector2d>& px;
+};
+
+QuantityErrors EdgeErrors(const LocatedEdge& edge,
+                          const EdgeTruth& truth,
+                          const PhotoMeasurement& photo) {
   double sum = 0, squares = 0;
   int count = 0;
-  for (const Eigen::Vector2d& p : photo.upper_edge_px) {
-    const Foot foot = FootOn(truth.upper.px, p);
+  for (const Eigen::Vector2d& p : edge.px) {
+    const Foot foot = FootOn(truth.px, p);
     if (foot.at_end) continue;
     sum += foot.distance;
     squares += foot.distance * foot.distance;
     ++count;
   }
   if (count == 0) return {.size = std::numeric_limits<double>::infinity(), .stated = {}};
-  return {.size = std::sqrt(squares / count), .stated = {{sum / count, MeanOffsetSigmaPx(photo)}}};
+  return {.size = std::sqrt(squares / count),
+          .stated = {{sum / count, MeanOffsetSigmaPx(edge.points, photo)}}};
 }
 
 // The pivot's axis stands on the sheet; seen obliquely it is a short line, from the edges' height
@@ -166,7 +174,8 @@ std::array<QuantityErrors, kQuantities> CompareWithTruth(const Analysis& analysi
   const FittedPhoto fitted = ApplyPose(photo, analysis.fit.poses.front());
   const FamilyFit& fit = analysis.fit.recommended;
   const BladeCurve true_curve = TrueCurve(truth);
-  return {EdgeErrors(photo, truth),
+  return {EdgeErrors({photo.edges.upper, photo.upper_edge_px}, truth.upper, photo),
+          EdgeErrors({photo.edges.lower, photo.lower_edge_px}, truth.lower, photo),
           PivotErrors(fitted, truth),
           ThetaErrors(fitted, truth),
           ScaleErrors(fitted.mm_per_px, photo.mm_per_px_sigma, truth),

@@ -12,7 +12,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr int kColumns = 3;
+constexpr int kColumns = 4;
 constexpr double kPanelWidth = 320, kPanelHeight = 250, kLeft = 62, kTop = 30, kRight = 14,
                  kBottom = 44;
 constexpr double kTitleHeight = 34;

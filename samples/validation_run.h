@@ -14,8 +14,8 @@
 namespace bladecurve {
 
 // What is compared with the truth.
-enum class Quantity { kEdge, kPivot, kTheta, kScale, kPhi, kTorque };
-inline constexpr int kQuantities = 6;
+enum class Quantity { kUpperEdge, kLowerEdge, kPivot, kTheta, kScale, kPhi, kTorque };
+inline constexpr int kQuantities = 7;
 
 // An error and the standard uncertainty that the program stated for it, in the same unit.
 struct StatedError {
@@ -25,7 +25,7 @@ struct StatedError {
 
 struct QuantityErrors {
   double size =
-      std::numeric_limits<double>::quiet_NaN();  // never negative; px, px, deg, ppm, mm, %
+      std::numeric_limits<double>::quiet_NaN();  // never negative; px, px, px, deg, ppm, mm, %
   std::vector<StatedError> stated;  // of its components; empty where no uncertainty is stated
 };
 

@@ -14,7 +14,8 @@
 namespace bladecurve {
 namespace {
 
-constexpr std::array<Quantity, kQuantities> kAll = {Quantity::kEdge,
+constexpr std::array<Quantity, kQuantities> kAll = {Quantity::kUpperEdge,
+                                                    Quantity::kLowerEdge,
                                                     Quantity::kPivot,
                                                     Quantity::kTheta,
                                                     Quantity::kScale,
@@ -118,8 +119,10 @@ std::string CsvSigmas(const QuantityErrors& errors) {
 
 const char* QuantityName(Quantity quantity) {
   switch (quantity) {
-    case Quantity::kEdge:
-      return "edge";
+    case Quantity::kUpperEdge:
+      return "upper_edge";
+    case Quantity::kLowerEdge:
+      return "lower_edge";
     case Quantity::kPivot:
       return "pivot";
     case Quantity::kTheta:
@@ -136,7 +139,8 @@ const char* QuantityName(Quantity quantity) {
 
 const char* QuantityUnit(Quantity quantity) {
   switch (quantity) {
-    case Quantity::kEdge:
+    case Quantity::kUpperEdge:
+    case Quantity::kLowerEdge:
       return "px";
     case Quantity::kPivot:
       return "px";

@@ -9,7 +9,7 @@
 
 namespace bladecurve {
 
-// Name and unit of a quantity: "edge", "px".
+// Name and unit of a quantity: "theta", "deg".
 [[nodiscard]] const char* QuantityName(Quantity quantity);
 [[nodiscard]] const char* QuantityUnit(Quantity quantity);
 
