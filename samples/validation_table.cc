@@ -141,7 +141,6 @@ const char* QuantityUnit(Quantity quantity) {
   switch (quantity) {
     case Quantity::kUpperEdge:
     case Quantity::kLowerEdge:
-      return "px";
     case Quantity::kPivot:
       return "px";
     case Quantity::kTheta:
