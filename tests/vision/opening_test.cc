@@ -92,5 +92,15 @@ TEST(MeasureOpening, KnowsWhatAnUnknownSlantDoesToTheAngle) {
   EXPECT_NEAR(from_above.view_sigma_rad, std::abs(moved), 0.1 * std::abs(moved));
 }
 
+// From afar nothing but foreshortening is seen of a slant. About one axis it opens the blades by
+// c s^2, about the other it closes them: (c s^2 - c t^2) has a standard deviation of 2 c sigma^2.
+TEST(MeasureOpening, KnowsWhatForeshorteningDoesToTheAngle) {
+  const Camera camera = CentredCamera(2e6, 1600, 1200);
+  const Opening from_above = OpeningAtSlant(camera, 0);
+  const double moved = OpeningAtSlant(camera, kFreehandSlantRad).theta_rad - from_above.theta_rad;
+  EXPECT_GT(std::abs(moved), 0.0005);
+  EXPECT_NEAR(from_above.view_sigma_rad, 2 * std::abs(moved), 0.1 * std::abs(moved));
+}
+
 }  // namespace
 }  // namespace bladecurve

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/opening.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "vision/image/cross.h"
@@ -10,6 +11,7 @@ namespace bladecurve {
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 namespace {
 
@@ -21,23 +23,44 @@ struct Rays {
     const Vector2d a = upper - pivot, b = lower - pivot;
     return std::abs(std::atan2(Cross(a, b), a.dot(b)));
   }
+  [[nodiscard]] Vector2d Halfway() const {
+    return ((upper - pivot).normalized() + (lower - pivot).normalized()).normalized();
+  }
   template <typename Map>
   [[nodiscard]] Rays Through(const Map& map) const {
     return {map(pivot), map(upper), map(lower)};
   }
 };
 
-// A camera slanted by small angles s sees at p (1 + s.p / f), from the picture's middle, what it
-// would see at p from above.
-double ViewSigma(const Rays& seen_px, const Camera& camera) {
+// Where a camera slanted by that angle about a line in the picture would see from above what it
+// sees at `px`.
+Vector2d SeenFromAbove(const Camera& camera,
+                       const Vector2d& about,
+                       double slant_rad,
+                       const Vector2d& px) {
   const Vector2d middle_px = camera.k.topRightCorner<2, 1>();
+  const double f = camera.focal_length_px();
+  const Vector3d ray = Eigen::AngleAxisd(slant_rad, Vector3d(about.x(), about.y(), 0)) *
+                       Vector3d(px.x() - middle_px.x(), px.y() - middle_px.y(), f);
+  return f / ray.z() * ray.head<2>();
+}
+
+// To second order of the slant: of blades about the picture's middle nothing but foreshortening
+// changes the angle. By symmetry slants about the line halfway between the rays and across it do so
+// independently.
+double ViewSigma(const Rays& seen_px, const Camera& camera) {
+  const double seen_rad = seen_px.Angle();
   double variance = 0;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Rays from_above = seen_px.Through([&](const Vector2d& px) -> Vector2d {
-      const Vector2d p = px - middle_px;
-      return (1 - kFreehandSlantRad * p[axis] / camera.focal_length_px()) * p;
-    });
-    variance += std::pow(from_above.Angle() - seen_px.Angle(), 2);
+  for (const Vector2d& about : {seen_px.Halfway(), Vector2d(seen_px.Halfway().unitOrthogonal())}) {
+    const auto turned_by = [&](double slant_rad) {
+      const auto from_above = [&](const Vector2d& px) {
+        return SeenFromAbove(camera, about, slant_rad, px);
+      };
+      return seen_px.Through(from_above).Angle() - seen_rad;
+    };
+    const double one_way = turned_by(kFreehandSlantRad), other_way = turned_by(-kFreehandSlantRad);
+    const double first_order = (one_way - other_way) / 2, second = (one_way + other_way) / 2;
+    variance += first_order * first_order + 2 * second * second;  // normally distributed slants
   }
   return std::sqrt(variance);
 }
