@@ -308,6 +308,50 @@ TEST(FindPivot, TakesAnArcForAHalfLitHeadRightWhereTheBladesTurn) {
     EXPECT_EQ(find(place(sigmas)).source, "geometry") << sigmas;
 }
 
+// A photograph a few hundred pixels wide, its screw's slot some way round.
+SceneSpec SmallPhotograph(double mm_per_px, std::uint64_t seed) {
+  SceneSpec spec = SceneWithMarkers();
+  spec.width = static_cast<int>(300 / mm_per_px);
+  spec.height = static_cast<int>(225 / mm_per_px);
+  spec.camera.mm_per_px = mm_per_px;
+  spec.scissors.screw_radius_mm = 2.3;
+  spec.scissors.slot_rad = 0.4 * static_cast<double>(seed);
+  spec.sensor.noise_grey = 1.5;
+  spec.seed = seed;
+  return spec;
+}
+
+// Of which nothing is seen at their size.
+TEST(FindPivot, SeesSmallHeadsMagnified) {
+  constexpr double kClosePx = 0.5;
+  for (const SceneSpec& spec :
+       {SmallPhotograph(0.4, 5), SmallPhotograph(0.4, 6), SmallPhotograph(0.5, 4)}) {
+    const Measured measured{spec};
+    const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+    const Pivot pivot =
+        FindPivot(measured.photo.grey(), measured.scale, {measured.scene, edges, std::nullopt});
+    EXPECT_EQ(pivot.source, "screw");
+    EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
+  }
+}
+
+// A slanted view parts them as well.
+TEST(FindPivot, SeesSmallHeadsMagnifiedInAnUnknownViewAboutWhichTheEdgesAreUnlike) {
+  constexpr double kClosePx = 1, kAsidePx = 10;
+  Measured measured{SmallPhotograph(0.4, 5)};
+  ScaleResult unknown_view = measured.scale;
+  unknown_view.sheet.reset();
+  measured.Misplace(&measured.blades.upper, kAsidePx);
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const auto find = [&](const ScaleResult& scale) {
+    return FindPivot(measured.photo.grey(), scale, {measured.scene, edges, std::nullopt});
+  };
+  const Pivot pivot = find(unknown_view);
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - measured.truth.screw_px).norm(), kClosePx);
+  EXPECT_EQ(find(measured.scale).source, "geometry");
+}
+
 // Smaller than heads are for so wide a shank, off where the overlap seems to be.
 TEST(FindPivot, SeesASmallHeadThatNothingElseLooksLikeRightWhereTheBladesTurn) {
   constexpr Arc kHead{6.5, 360, 215, cv::FILLED};

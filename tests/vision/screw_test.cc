@@ -419,6 +419,54 @@ TEST(FindScrew, MostGlossyHeadsAreFound) {
   EXPECT_GE(found, 2 * kHeads / 3);
 }
 
+ScrewSearch MagnifiedSearchAround(const Vector2d& guess, double radius) {
+  ScrewSearch search = SearchAround(guess, radius);
+  search.magnified = true;
+  return search;
+}
+
+// With dark slots, as of slender scissors in pictures a few hundred pixels wide.
+TEST(FindScrew, SeesFarMoreSmallSlottedHeadsMagnified) {
+  constexpr std::uint32_t kHeads = 40, kFirst = 501;
+  constexpr double kRadiusPx = 5, kClosePx = 0.6, kEvidence = 6;
+  std::uint32_t plainly = 0, magnified = 0;
+  for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
+    HeadSpec head = RandomHead(kRadiusPx, seed);
+    head.groove = -0.07;
+    head.groove_px = 0.5;
+    head.slot = -0.2;
+    head.blur_px = 0.6;
+    const cv::Mat grey = RenderHead(head);
+    const auto is_found = [&](const ScrewSearch& search) {
+      const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+      return screw && screw->evidence > kEvidence &&
+             (screw->center_px - head.center_px).norm() < kClosePx;
+    };
+    if (is_found(SearchAround(head.center_px, kRadiusPx))) ++plainly;
+    if (is_found(MagnifiedSearchAround(head.center_px, kRadiusPx))) ++magnified;
+  }
+  EXPECT_GE(magnified, kHeads / 2);
+  EXPECT_GE(magnified, 2 * plainly);
+}
+
+TEST(FindScrew, SeesNoScrewMagnifiedWhereThereIsNone) {
+  constexpr std::uint32_t kDraws = 40;
+  int found = 0;
+  for (const double radius : {5.0, 8.0}) {
+    for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
+      HeadSpec plate = RandomHead(radius, seed);
+      const cv::Mat noise = RenderHead(plate);
+      plate.brushed = 0.1;
+      for (const cv::Mat& grey :
+           {noise, RenderHead(plate), Bars(seed, 8 * static_cast<int>(radius))}) {
+        const Vector2d middle(grey.cols / 2.0, grey.rows / 2.0);
+        if (FindScrew(grey, SrgbToneCurve(), MagnifiedSearchAround(middle, radius))) ++found;
+      }
+    }
+  }
+  EXPECT_EQ(found, 0);
+}
+
 TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {
   const ToneCurve tone = SrgbToneCurve();
   const cv::Mat tiny(1, 1, CV_8UC1, cv::Scalar(7)), flat(50, 300, CV_8UC1, cv::Scalar(255));

@@ -33,8 +33,8 @@ struct HeadSearch {
 // A faint head in an unknown view counts near where the blades put the pivot, and is left for a
 // clearer one elsewhere; where it leaves the edges far unlike, for any about which they mirror each
 // other. Where none is seen, also a half-lit one about which they do, or the faint one itself, if
-// they do so as near to it as it is known; at last, what elsewhere would be no head, right where
-// the blades turn, to a quarter of its radius.
+// they do so as near to it as it is known; then a small one, magnified; at last, what elsewhere
+// would be no head, right where the blades turn, to a quarter of its radius.
 [[nodiscard]] std::optional<Screw> FindHead(const HeadSearch& search);
 
 }  // namespace bladecurve

@@ -92,4 +92,9 @@ bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
          (IsSlotted(screw) && OddsAtPlace(screw, known) > kLeastOdds);
 }
 
+bool IsSureMagnified(const Screw& screw, const HeadSearch& known) {
+  if (LiesWhereBladesTurn(screw, known) || MirrorNear(screw, known)) return true;
+  return !known.scale.sheet && !IsPartlySeen(screw) && IsSureAtJoint(screw, known);
+}
+
 }  // namespace bladecurve

@@ -36,4 +36,9 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // slot from end to end not far from there.
 [[nodiscard]] bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known);
 
+// The same of one that was seen magnified, as more is that is none: where the blades put the pivot,
+// or if the edges mirror each other about it; where a slanted view may part them, also one of which
+// all sides show.
+[[nodiscard]] bool IsSureMagnified(const Screw& screw, const HeadSearch& known);
+
 }  // namespace bladecurve

@@ -69,6 +69,9 @@ struct ScrewSearch {
   // Rims of which a third does not show at all count, too: light from one side leaves no more of
   // some. Tips and corners look like them.
   bool half_lit = false;
+  // Heads of less than 14 px are judged up to twice as large: more of a rim shows then beside a
+  // slot that is as wide as the blur, and more that is none looks like one.
+  bool magnified = false;
 };
 
 // The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with
