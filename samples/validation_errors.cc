@@ -47,13 +47,13 @@ double MeanOffsetSigmaPx(const std::vector<EdgePoint>& points, const PhotoMeasur
   return std::sqrt(own_mm2 + shared_mm * shared_mm) / photo.mm_per_px;
 }
 
-// As located: in mm with sigmas, and in the photograph.
-struct LocatedEdge {
+// An edge in mm with sigmas, and in the photograph.
+struct MeasuredEdge {
   const std::vector<EdgePoint>& points;
   const std::vector<Eigen::Vector2d>& px;
 };
 
-QuantityErrors EdgeErrors(const LocatedEdge& edge,
+QuantityErrors EdgeErrors(const MeasuredEdge& edge,
                           const EdgeTruth& truth,
                           const PhotoMeasurement& photo) {
   double sum = 0, squares = 0;

@@ -34,10 +34,10 @@ struct Rays {
 
 // Where a camera slanted by that angle about a line in the picture would see from above what it
 // sees at `px`.
-Vector2d SeenFromAbove(const Camera& camera,
-                       const Vector2d& about,
-                       double slant_rad,
-                       const Vector2d& px) {
+Vector2d PlaceFromAbove(const Camera& camera,
+                        const Vector2d& about,
+                        double slant_rad,
+                        const Vector2d& px) {
   const Vector2d middle_px = camera.k.topRightCorner<2, 1>();
   const double f = camera.focal_length_px();
   const Vector3d ray = Eigen::AngleAxisd(slant_rad, Vector3d(about.x(), about.y(), 0)) *
@@ -54,7 +54,7 @@ double ViewSigma(const Rays& seen_px, const Camera& camera) {
   for (const Vector2d& about : {seen_px.Halfway(), Vector2d(seen_px.Halfway().unitOrthogonal())}) {
     const auto turned_by = [&](double slant_rad) {
       const auto from_above = [&](const Vector2d& px) {
-        return SeenFromAbove(camera, about, slant_rad, px);
+        return PlaceFromAbove(camera, about, slant_rad, px);
       };
       return seen_px.Through(from_above).Angle() - seen_rad;
     };
