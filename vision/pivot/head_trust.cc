@@ -73,9 +73,9 @@ bool MayMirrorAbout(const Screw& screw, const HeadSearch& known) {
   return Credence(screw) > 0 || std::abs(AsymmetryAbout(screw, known)) < kSlanted;
 }
 
-bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known) {
+bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known, double sigmas) {
   const PlacePx& place = known.by_geometry;
-  return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < 1;
+  return ChiSquare(screw.center_px - place.point_px, place.covariance_px2) < sigmas * sigmas;
 }
 
 bool IsSureAtJoint(const Screw& screw, const HeadSearch& known) {
@@ -93,8 +93,11 @@ bool IsSureOfUnusualSize(const Screw& screw, const HeadSearch& known) {
 }
 
 bool IsSureMagnified(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSigmas = 2;  // glints about the joint lie further off
   if (LiesWhereBladesTurn(screw, known) || MirrorNear(screw, known)) return true;
-  return !known.scale.sheet && !IsPartlySeen(screw) && IsSureAtJoint(screw, known);
+  if (known.scale.sheet || IsPartlySeen(screw)) return false;
+  return (IsSlotted(screw) || LiesWhereBladesTurn(screw, known, kSigmas)) &&
+         MayMirrorAbout(screw, known);
 }
 
 }  // namespace bladecurve

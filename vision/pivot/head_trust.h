@@ -24,8 +24,10 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // but hardly so much about what is too flat for a head.
 [[nodiscard]] bool MayMirrorAbout(const Screw& screw, const HeadSearch& known);
 
-// Whether it lies where the blades alone put the pivot.
-[[nodiscard]] bool LiesWhereBladesTurn(const Screw& screw, const HeadSearch& known);
+// Whether it lies where the blades alone put the pivot, by so many standard uncertainties.
+[[nodiscard]] bool LiesWhereBladesTurn(const Screw& screw,
+                                       const HeadSearch& known,
+                                       double sigmas = 1);
 
 // Whether a head near the joint is to be trusted: necks of members and engraved marks are round,
 // too, but less so than heads, and about few of them the edges mirror each other, the fewest where
@@ -38,7 +40,7 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 
 // The same of one that was seen magnified, as more is that is none: where the blades put the pivot,
 // or if the edges mirror each other about it; where a slanted view may part them, also one of which
-// all sides show.
+// all sides show and that lies not far from there, or one with a slot from end to end.
 [[nodiscard]] bool IsSureMagnified(const Screw& screw, const HeadSearch& known);
 
 }  // namespace bladecurve
