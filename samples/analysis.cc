@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/degrees.h"
 #include "vision/parallel.h"
 
 namespace bladecurve {
@@ -70,6 +71,16 @@ BladeFit Fit(const std::vector<PhotoMeasurement>& photos, const FitOptions& opti
   }
 }
 
+// Of angles that are known to more than a quarter of a degree only, not of given ones.
+void DoubtVagueAngles(const BladeFit& fit, std::vector<PhotoMeasurement>* photos) {
+  constexpr double kVagueRad = 0.25 * kRadPerDeg;
+  for (std::size_t i = 0; i < photos->size(); ++i) {
+    PhotoMeasurement& photo = (*photos)[i];
+    if (photo.edges.theta_given || fit.poses[i].theta_sigma_rad <= kVagueRad) continue;
+    photo.warnings.emplace_back("theta_vague");
+  }
+}
+
 }  // namespace
 
 PhotoRefused::PhotoRefused(const Refused& refusal, std::string photo)
@@ -90,6 +101,7 @@ Analysis AnalyzeScissors(const std::vector<std::filesystem::path>& photos,
   BladeFit fit = Fit(measured, settings.fit);
   const std::chrono::duration<double, std::milli> elapsed =
       std::chrono::steady_clock::now() - start;
+  DoubtVagueAngles(fit, &measured);
   return {std::move(measured), std::move(fit), elapsed.count()};
 }
 

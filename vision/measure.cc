@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -114,12 +113,6 @@ void FillTheta(const Opening& opening,
   result->edges.view_theta_sigma_rad = opening.view_sigma_rad;
 }
 
-// Whether the angle between the distal ends is known to more than a quarter of a degree only.
-bool IsVague(double theta_sigma_rad) {
-  constexpr double kVagueRad = 0.25 * std::numbers::pi / 180;
-  return theta_sigma_rad > kVagueRad;  // not where it was given
-}
-
 ScaleResult FindScaleInView(const Photo& photo, const ScaleOptions& options, StageLog* log) {
   try {
     ScaleResult scale = FindScale(photo, options);
@@ -184,7 +177,6 @@ PhotoMeasurement MeasurePhoto(const std::filesystem::path& path, const MeasureOp
   FillPixels(photo, frame, pivot, blades, &result);
   FillTheta(opening, options.hints.theta_rad, &result);
   result.warnings = WarningsOf(scissors.scene, scale, map, pivot, blades);
-  if (IsVague(result.theta_sigma_rad)) result.warnings.emplace_back("theta_vague");
   if (IsUnusual(result.edges, map)) result.warnings.emplace_back("size_unusual");
   log.Ran("pose", "opening angle and axis from the distal ends");
   result.plan = log.records();
