@@ -44,7 +44,7 @@ struct PhotoMeasurement {
   std::vector<Eigen::Vector2d> upper_edge_mm;  // in the frame of `edges`
   double upper_edge_sigma_px = 0;
   Eigen::Vector2d upper_end_px{0, 0}, lower_end_px{0, 0};
-  std::vector<std::string> warnings;  // each makes the result `review`; the fit may add to them
+  std::vector<std::string> warnings;  // each makes the result `review`
   std::vector<StageRecord> plan;
   double ms_total = 0;
   EdgePoints edges;                    // the same in mm, for the curve fit

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -232,30 +233,43 @@ cv::Mat Bars(std::uint32_t seed, int side) {
   return light;
 }
 
+// About the middle of each.
+int CountFound(const std::vector<cv::Mat>& pictures, ScrewSearch search) {
+  return static_cast<int>(std::count_if(pictures.begin(), pictures.end(), [&](const cv::Mat& grey) {
+    search.guess_px = {grey.cols / 2.0, grey.rows / 2.0};
+    return FindScrew(grey, SrgbToneCurve(), search).has_value();
+  }));
+}
+
 int CountFound(const std::vector<cv::Mat>& pictures, double radius) {
   constexpr double kClear = 10;  // of half-lit rims
-  int found = 0;
-  for (const cv::Mat& grey : pictures) {
-    ScrewSearch search = SearchAround({grey.cols / 2.0, grey.rows / 2.0}, radius);
-    if (FindScrew(grey, SrgbToneCurve(), search)) ++found;
-    search.half_lit = true;
-    search.least_evidence = kClear;
-    if (FindScrew(grey, SrgbToneCurve(), search)) ++found;
+  const ScrewSearch lit = SearchAround({0, 0}, radius);
+  ScrewSearch half_lit = lit;
+  half_lit.half_lit = true;
+  half_lit.least_evidence = kClear;
+  return CountFound(pictures, lit) + CountFound(pictures, half_lit);
+}
+
+struct PicturesWithoutHead {
+  std::vector<cv::Mat> noise, brushed, bars;
+};
+
+PicturesWithoutHead DrawWithoutHead(double radius, std::uint32_t draws) {
+  PicturesWithoutHead drawn;
+  for (std::uint32_t seed = 1; seed <= draws; ++seed) {
+    HeadSpec plate = RandomHead(radius, seed);
+    drawn.noise.push_back(RenderHead(plate));
+    plate.brushed = 0.1;
+    drawn.brushed.push_back(RenderHead(plate));
+    drawn.bars.push_back(Bars(seed, 8 * static_cast<int>(radius)));
   }
-  return found;
+  return drawn;
 }
 
 TEST(FindScrew, SeesNoScrewWhereThereIsNone) {
   constexpr std::uint32_t kDraws = 12;
   for (const double radius : {8.0, 20.0, 40.0}) {
-    std::vector<cv::Mat> noise, brushed, bars;
-    for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
-      HeadSpec plate = RandomHead(radius, seed);
-      noise.push_back(RenderHead(plate));
-      plate.brushed = 0.1;
-      brushed.push_back(RenderHead(plate));
-      bars.push_back(Bars(seed, 8 * static_cast<int>(radius)));
-    }
+    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
     EXPECT_EQ(CountFound(noise, radius), 0) << "noise, radius " << radius;
     EXPECT_EQ(CountFound(brushed, radius), 0) << "brushed plate, radius " << radius;
     EXPECT_EQ(CountFound(bars, radius), 0) << "crossing bars, radius " << radius;
@@ -451,20 +465,13 @@ TEST(FindScrew, SeesFarMoreSmallSlottedHeadsMagnified) {
 
 TEST(FindScrew, SeesNoScrewMagnifiedWhereThereIsNone) {
   constexpr std::uint32_t kDraws = 40;
-  int found = 0;
   for (const double radius : {5.0, 8.0}) {
-    for (std::uint32_t seed = 1; seed <= kDraws; ++seed) {
-      HeadSpec plate = RandomHead(radius, seed);
-      const cv::Mat noise = RenderHead(plate);
-      plate.brushed = 0.1;
-      for (const cv::Mat& grey :
-           {noise, RenderHead(plate), Bars(seed, 8 * static_cast<int>(radius))}) {
-        const Vector2d middle(grey.cols / 2.0, grey.rows / 2.0);
-        if (FindScrew(grey, SrgbToneCurve(), MagnifiedSearchAround(middle, radius))) ++found;
-      }
-    }
+    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
+    const ScrewSearch search = MagnifiedSearchAround({0, 0}, radius);
+    EXPECT_EQ(CountFound(noise, search), 0) << "noise, radius " << radius;
+    EXPECT_EQ(CountFound(brushed, search), 0) << "brushed plate, radius " << radius;
+    EXPECT_EQ(CountFound(bars, search), 0) << "crossing bars, radius " << radius;
   }
-  EXPECT_EQ(found, 0);
 }
 
 TEST(FindScrew, OddPicturesAndPlacesGiveNothing) {

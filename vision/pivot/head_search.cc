@@ -271,12 +271,11 @@ std::optional<Screw> LookAllAbout(const HeadSearch& known) {
 // A small head, looked at twice as large. In photographs and renderings those of which nothing was
 // seen before reach 6.2 then; most other arcs about the joint stay below 5.6, but glints reach 8.7.
 std::optional<Screw> LookMagnified(const HeadSearch& known) {
-  constexpr double kLargestPx = 14;  // larger ones show no more
   constexpr double kLeastEvidence = 6;
   std::vector<ScrewSearch> searches = PiecesAlongOverlap(known);
   for (ScrewSearch& search : searches) {
-    if (search.min_semi_axis_px > kLargestPx) return std::nullopt;
-    search.max_semi_axis_px = std::min(search.max_semi_axis_px, kLargestPx);
+    if (search.min_semi_axis_px > kJudgedRadiusPx) return std::nullopt;
+    search.max_semi_axis_px = std::min(search.max_semi_axis_px, kJudgedRadiusPx);
     search.magnified = true;
     search.least_evidence = kLeastEvidence;
   }

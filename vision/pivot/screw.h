@@ -54,6 +54,10 @@ inline constexpr double kUnmistakable = 25, kBeyondDoubt = 15, kFaintHead = 10, 
   return screw.third_support < kLeastThird && !screw.slot;
 }
 
+// Heads are judged at a radius from this to twice as much: larger ones show more grain than rim.
+// Smaller ones as they are seen, or magnified.
+inline constexpr double kJudgedRadiusPx = 14;
+
 struct ScrewSearch {
   Eigen::Vector2d guess_px{0, 0};  // where geometry puts the pivot
   double radius_px = 0;         // how far from there the centre may lie; time grows as its square
@@ -69,8 +73,8 @@ struct ScrewSearch {
   // Rims of which a third does not show at all count, too: light from one side leaves no more of
   // some. Tips and corners look like them.
   bool half_lit = false;
-  // Heads of less than 14 px are judged up to twice as large: more of a rim shows then beside a
-  // slot that is as wide as the blur, and more that is none looks like one.
+  // Heads of less than kJudgedRadiusPx are judged up to twice as large: more of a rim shows then
+  // beside a slot that is as wide as the blur, and more that is none looks like one.
   bool magnified = false;
 };
 

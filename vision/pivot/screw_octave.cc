@@ -12,10 +12,6 @@
 namespace bladecurve {
 namespace {
 
-// Heads are judged at 14 to 28 px: larger ones show more grain than rim. Smaller ones as they are
-// seen, or magnified.
-constexpr double kJudgedRadiusPx = 14;
-constexpr double kMagnified = 0.5;  // picture pixels per pixel, at least
 // How far windows reach beyond the centres sought, in radii of the smallest head: 2.1 of the
 // largest and its rim.
 constexpr double kMargin = 3.6;
@@ -30,6 +26,12 @@ bool Admissible(const RimEllipse& rim, const ScrewSearch& search) {
 // Where the grain of plate and ground is measured: at least three radii about.
 double Surroundings(const ScrewSearch& search, double min_radius_px) {
   return std::max(search.radius_px, 3 * min_radius_px);
+}
+
+// Picture pixels per pixel of the window in which heads are judged.
+double JudgedScale(const ScrewSearch& search, double min_radius_px) {
+  constexpr double kMagnified = 0.5;
+  return std::max(search.magnified ? kMagnified : 1, min_radius_px / kJudgedRadiusPx);
 }
 
 cv::Mat Smooth(const cv::Mat& grey) {
@@ -52,11 +54,10 @@ Octave::Octave(const cv::Mat& grey, const ScrewSearch& search, double min_radius
                         search.guess_px,
                         Surroundings(search, min_radius_px) + kMargin * min_radius_px,
                         min_radius_px / kOctaveRadius)),
-      fine_(
-          CutWindow(grey,
-                    search.guess_px,
-                    search.radius_px + kMargin * min_radius_px,
-                    std::max(search.magnified ? kMagnified : 1, min_radius_px / kJudgedRadiusPx))),
+      fine_(CutWindow(grey,
+                      search.guess_px,
+                      search.radius_px + kMargin * min_radius_px,
+                      JudgedScale(search, min_radius_px))),
       field_(coarse_.grey,
              (search.guess_px - coarse_.origin) / coarse_.scale,
              Surroundings(search, min_radius_px) / coarse_.scale,

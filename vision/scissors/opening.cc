@@ -50,8 +50,9 @@ Vector2d PlaceFromAbove(const Camera& camera,
 // independently.
 double ViewSigma(const Rays& seen_px, const Camera& camera) {
   const double seen_rad = seen_px.Angle();
+  const Vector2d halfway = seen_px.Halfway();
   double variance = 0;
-  for (const Vector2d& about : {seen_px.Halfway(), Vector2d(seen_px.Halfway().unitOrthogonal())}) {
+  for (const Vector2d& about : {halfway, Vector2d(halfway.unitOrthogonal())}) {
     const auto turned_by = [&](double slant_rad) {
       const auto from_above = [&](const Vector2d& px) {
         return PlaceFromAbove(camera, about, slant_rad, px);
@@ -59,8 +60,8 @@ double ViewSigma(const Rays& seen_px, const Camera& camera) {
       return seen_px.Through(from_above).Angle() - seen_rad;
     };
     const double one_way = turned_by(kFreehandSlantRad), other_way = turned_by(-kFreehandSlantRad);
-    const double first_order = (one_way - other_way) / 2, second = (one_way + other_way) / 2;
-    variance += first_order * first_order + 2 * second * second;  // normally distributed slants
+    const double first = (one_way - other_way) / 2, second = (one_way + other_way) / 2;
+    variance += first * first + 2 * second * second;  // normally distributed slants
   }
   return std::sqrt(variance);
 }
@@ -76,11 +77,10 @@ Opening MeasureOpening(const PlaneMap& map,
   const auto angle = [&](const Vector2d& p, const Vector2d& u, const Vector2d& l) {
     return Rays{p, u, l}.Through(in_plane).Angle();
   };
+  const Rays seen_px{pivot.point_px, upper.end.point_px, lower.end.point_px};
   Opening opening;
-  opening.theta_rad = angle(pivot.point_px, upper.end.point_px, lower.end.point_px);
-  const Vector2d a = (in_plane(upper.end.point_px) - in_plane(pivot.point_px)).normalized();
-  const Vector2d b = (in_plane(lower.end.point_px) - in_plane(pivot.point_px)).normalized();
-  opening.x_in_plane = (a + b).normalized();
+  opening.theta_rad = seen_px.Through(in_plane).Angle();
+  opening.x_in_plane = seen_px.Through(in_plane).Halfway();
   // First order, by differences of one pixel over the three points' coordinates.
   double variance = 0;
   const auto add = [&](const Matrix2d& covariance, const auto& moved) {
@@ -104,10 +104,7 @@ Opening MeasureOpening(const PlaneMap& map,
                              opening.theta_rad;
   variance += shared_px * shared_px * out_of_both * out_of_both;
   opening.sigma_rad = std::sqrt(variance);
-  if (unknown_view) {
-    opening.view_sigma_rad =
-        ViewSigma({pivot.point_px, upper.end.point_px, lower.end.point_px}, unknown_view->camera);
-  }
+  if (unknown_view) opening.view_sigma_rad = ViewSigma(seen_px, unknown_view->camera);
   return opening;
 }
 
