@@ -35,14 +35,26 @@ std::optional<double> StepAcross(const cv::Mat& grey,
   return step / kPlaces;
 }
 
-// Typical step from one position to another; 0 out of the picture.
-double StepBetween(
+// The steps from one position to another; all 0 out of the picture.
+struct Steps {
+  double typical = 0, scatter = 0;
+
+  // From grain, too, which beyond the blade would be taken for more of it.
+  [[nodiscard]] bool StandOut() const {
+    constexpr double kLeastGrey = 8;
+    return std::abs(typical) > std::max(kLeastGrey, scatter);
+  }
+};
+
+Steps StepsBetween(
     const cv::Mat& grey, const EdgeAxis& axis, double from, double to, double blur_px) {
   std::vector<double> steps;
   for (double t = from; t < to; ++t) {
     if (const auto step = StepAcross(grey, axis, t, blur_px)) steps.push_back(*step);
   }
-  return steps.empty() ? 0 : Median(steps);
+  const double typical = Median(steps);
+  for (double& step : steps) step -= typical;
+  return {typical, kSigmaPerMedian * MedianAbsolute(std::move(steps))};
 }
 
 // Light at a depth inside the edge, a little way along it averaged. std::nullopt out of the
@@ -168,21 +180,20 @@ FollowedStep FollowStep(const cv::Mat& grey,
                         const std::vector<Vector2d>& edge,
                         const TipSearch& search) {
   constexpr double kMiddle = 0.5, kLastPart = 0.8, kFurthest = 1.5;  // of the edge's length
-  constexpr double kLeastGrey = 8;
   if (edge.size() < kFewestEdgePoints) return {};
   const EdgeAxis axis(edge, search.tip_px, search.blade_on_left);
   const double last = axis.PositionOf(edge.back());
   const double middle = kMiddle * last, last_part = kLastPart * last, furthest = kFurthest * last;
-  const double late = StepBetween(grey, axis, last_part, last, search.blur_px);
-  if (late > 0) {
-    const double early = StepBetween(grey, axis, middle, last_part, search.blur_px);
-    if (early < -kLeastGrey) {
-      const FollowedStep turned = Follow(grey, axis, middle, furthest, early, search);
+  const Steps late = StepsBetween(grey, axis, last_part, last, search.blur_px);
+  if (late.typical > 0) {
+    const Steps early = StepsBetween(grey, axis, middle, last_part, search.blur_px);
+    if (early.typical < 0 && early.StandOut()) {
+      const FollowedStep turned = Follow(grey, axis, middle, furthest, early.typical, search);
       if (turned.blade_ends) return turned;
     }
   }
-  if (!(std::abs(late) > kLeastGrey)) return {};
-  return Follow(grey, axis, last_part, furthest, late, search);
+  if (!late.StandOut()) return {};
+  return Follow(grey, axis, last_part, furthest, late.typical, search);
 }
 
 }  // namespace bladecurve
