@@ -208,9 +208,9 @@ void RelocateFarClearerOne(const BladeView& view, const Pivot& pivot, Blades* bl
   if (AreFarUnlike(pivot.asymmetry) && !outside) return;
   const double higher = outside ? kOutside : kFurtherIn;
   if (std::abs(TypicalContrast(after)) <= higher * std::abs(TypicalContrast(before))) return;
-  if (LeftOfDifference({view, pivot, other, line}, found) > kLeft) return;
-  Replace(found, kWhereMirrored, &blade);
-  MarkAsAssumed(view, pivot, &blade);
+  const MirroredBladeSearch search{view, pivot, other, line};
+  if (LeftOfDifference(search, found) > kLeft) return;
+  ReplaceAssumed(search, found, kWhereMirrored, &blade);
 }
 
 // Edges that differ by more than a pivot that lies a little aside makes them.

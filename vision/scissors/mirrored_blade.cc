@@ -11,6 +11,7 @@
 #include "vision/pivot/pivot_geometry.h"
 #include "vision/refused.h"
 #include "vision/scissors/edge_difference.h"
+#include "vision/scissors/edge_doubt.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
 
@@ -137,6 +138,17 @@ void Replace(const RelocatedBlade& found, const char* where, LocatedBlade* blade
 void MarkAsAssumed(const BladeView& view, const Pivot& pivot, LocatedBlade* blade) {
   if (!KnowsMirror(view, pivot))
     blade->edge.ambiguity = std::max(blade->edge.ambiguity, kAssumedAmbiguity);
+}
+
+void ReplaceAssumed(const MirroredBladeSearch& search,
+                    const RelocatedBlade& found,
+                    const char* where,
+                    LocatedBlade* blade) {
+  constexpr double kShare = 0.6;  // of the way, standard
+  const double way_px = MedianDistance(found.blade.edge, blade->edge);
+  Replace(found, where, blade);
+  MarkAsAssumed(search.view, search.pivot, blade);
+  if (!KnowsMirror(search.view, search.pivot)) AddSigma(&blade->edge, kShare * way_px);
 }
 
 }  // namespace bladecurve

@@ -60,4 +60,11 @@ inline constexpr double kAssumedAmbiguity = 0.6;
 // Doubts an edge that was found by symmetry, unless that is known to hold.
 void MarkAsAssumed(const BladeView& view, const Pivot& pivot, LocatedBlade* blade);
 
+// Replaces a blade likewise where a slant of the view may part the edges as well: then it becomes
+// less certain by 0.6 of how far it is moved.
+void ReplaceAssumed(const MirroredBladeSearch& search,
+                    const RelocatedBlade& found,
+                    const char* where,
+                    LocatedBlade* blade);
+
 }  // namespace bladecurve

@@ -56,8 +56,7 @@ bool RelocateShadowedOne(const BladeView& view, const Pivot& pivot, Blades* blad
     const std::optional<RelocatedBlade> found = LookInShadow(search, kNearest, shadow);
     if (!found || found->blade.edge.ambiguity > kSeen || !AreAlike(found->asymmetry)) continue;
     if (LeftOfDifference(search, *found) > most_left) continue;
-    Replace(*found, "inside a shadow, where the other one puts it", &outer);
-    MarkAsAssumed(view, pivot, &outer);
+    ReplaceAssumed(search, *found, "inside a shadow, where the other one puts it", &outer);
     return true;
   }
   return false;
