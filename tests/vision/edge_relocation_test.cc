@@ -821,6 +821,7 @@ TEST(RelocateUnlikeEdges, TrustsNoMirrorInAViewOfUnknownTilt) {
 TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
   constexpr double kAsidePx = 3, kFarPx = 16, kClosePx = 0.3, kWarned = 0.5;
   constexpr double kHigher = 2, kFarHigher = 5;  // the step at the edge, of that at what was found
+  constexpr double kUnsure = 0.5;                // of the way: it may have been the edge
   const auto relocated = [&](bool upper, double outwards_px, double higher, double ambiguity) {
     Measured measured{SceneWithMarkers()};
     LocatedBlade& misplaced = measured.Blade(upper);
@@ -833,6 +834,8 @@ TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
     const bool is_found = FarFrom(measured.TrueEdge(upper), misplaced.used) < kClosePx;
     EXPECT_EQ(is_found, !misplaced.moved.empty());
     EXPECT_TRUE(!is_found || misplaced.edge.ambiguity > kWarned);
+    const bool is_assumed = misplaced.moved == "where the other one puts it";
+    EXPECT_TRUE(!is_assumed || TotalSigma(misplaced.edge) > kUnsure * std::abs(outwards_px));
     return is_found;
   };
   for (const bool upper : {true, false}) {

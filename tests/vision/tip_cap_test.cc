@@ -168,6 +168,26 @@ TEST(FollowStep, EndsWithTheBladeWhereverTheTipWasPresumed) {
   }
 }
 
+// Stripes across the edge of a blade that is as grey as they are, typically.
+TEST(FollowStep, DoesNotFollowGrain) {
+  constexpr int kStripePx = 3;
+  constexpr double kStep = 12;
+  const std::vector<Vector2d> edge = EdgeAlong(kEdge);
+  for (const double grain : {6.0, 40.0}) {
+    cv::Mat picture(160, 340, CV_8UC1);
+    for (int row = 0; row < picture.rows; ++row) {
+      for (int column = 0; column < picture.cols; ++column) {
+        const bool ground = row > kEdge || column > kTip;
+        const double stripe = (column / kStripePx % 3 - 1) * grain;
+        picture.at<uchar>(row, column) =
+            cv::saturate_cast<uchar>(ground ? 120 + kStep + stripe : 120.0);
+      }
+    }
+    cv::GaussianBlur(picture, picture, {}, 0.8);
+    EXPECT_EQ(FollowStep(picture, edge, kSearch).step != 0, grain < kStep) << grain;
+  }
+}
+
 // Beyond a shadow 3 px wide the ground is brighter than the blade.
 TEST(FollowStep, KnowsTheStepIntoANarrowShadow) {
   constexpr int kShadowPx = 3;

@@ -55,4 +55,8 @@ void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot);
 // Refused{kAmbiguousPivot}.
 void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot);
 
+// Throws Refused{kLowContrast} for a doubtful scene whose edges begin far from each other: blades
+// part in a crotch, from which both run.
+void RefuseMissingCrotch(const Scene& scene, const Blades& blades);
+
 }  // namespace bladecurve

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "vision/image/bilinear.h"
 #include "vision/image/blurred_step.h"
@@ -37,14 +39,27 @@ std::optional<double> StepAcross(const cv::Mat& grey,
 
 // The steps from one position to another; all 0 out of the picture.
 struct Steps {
-  double typical = 0, scatter = 0;
+  double typical = 0;
+  double grain = 0;  // how they scatter from place to place
 
   // From grain, too, which beyond the blade would be taken for more of it.
   [[nodiscard]] bool StandOut() const {
     constexpr double kLeastGrey = 8;
-    return std::abs(typical) > std::max(kLeastGrey, scatter);
+    return std::abs(typical) > std::max(kLeastGrey, grain);
   }
 };
+
+// Standard deviation about the typical values of short stretches: where a bevel begins is no grain.
+double GrainOf(const std::vector<double>& steps) {
+  constexpr std::ptrdiff_t kStretch = 12;  // px
+  std::vector<double> off;
+  for (auto from = steps.begin(); from != steps.end();) {
+    const auto to = from + std::min(kStretch, steps.end() - from);
+    const double typical = Median({from, to});
+    for (; from != to; ++from) off.push_back(*from - typical);
+  }
+  return kSigmaPerMedian * MedianAbsolute(std::move(off));
+}
 
 Steps StepsBetween(
     const cv::Mat& grey, const EdgeAxis& axis, double from, double to, double blur_px) {
@@ -52,9 +67,8 @@ Steps StepsBetween(
   for (double t = from; t < to; ++t) {
     if (const auto step = StepAcross(grey, axis, t, blur_px)) steps.push_back(*step);
   }
-  const double typical = Median(steps);
-  for (double& step : steps) step -= typical;
-  return {typical, kSigmaPerMedian * MedianAbsolute(std::move(steps))};
+  const double grain = GrainOf(steps);
+  return {Median(std::move(steps)), grain};
 }
 
 // Light at a depth inside the edge, a little way along it averaged. std::nullopt out of the
