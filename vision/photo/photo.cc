@@ -131,10 +131,11 @@ int WithColumnsFlipped(int orientation) {
   }
 }
 
-[[noreturn]] void Refuse(const std::filesystem::path& path, const std::string& cause) {
+[[noreturn]] void Refuse(const std::filesystem::path& path,
+                         const std::string& cause,
+                         const std::string& instead) {
   throw Refused(Reason::kUnreadable,
-                "photo: " + path.string() + " cannot be read: " + cause +
-                    "; give a whole JPEG, PNG, TIFF or HEIC file");
+                "photo: " + path.string() + " cannot be read: " + cause + "; give " + instead);
 }
 
 }  // namespace
@@ -151,9 +152,11 @@ Photo Photo::Load(const std::filesystem::path& path) {
     photo.grey_ = photo.Unmirrored(decoded.picture.pixels);
     return photo;
   } catch (const std::bad_alloc&) {
-    Refuse(path, "there is not enough memory for it");
+    Refuse(path, "there is not enough memory for it", "a smaller picture");
+  } catch (const PhotoTooLarge& error) {
+    Refuse(path, error.what(), "a smaller picture");
   } catch (const std::exception& error) {
-    Refuse(path, error.what());
+    Refuse(path, error.what(), "a whole JPEG, PNG, TIFF or HEIC file");
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -52,7 +53,11 @@ enum class PixelLayout { kGrey, kGreyAlpha, kRgb, kRgba, kCmyk, kInvertedCmyk };
 // BT.601 luma (what JPEG stores) or BGR; grey stays the same buffer.
 [[nodiscard]] cv::Mat ConvertPixels(const cv::Mat& stored, PixelLayout layout, bool colour);
 
-// Throws std::runtime_error for pictures without pixels and for decompression bombs.
+struct PhotoTooLarge : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Throws std::runtime_error for pictures without pixels, and PhotoTooLarge for decompression bombs.
 void CheckPhotoSize(double width, double height);
 
 }  // namespace bladecurve

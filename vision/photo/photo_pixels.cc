@@ -119,9 +119,9 @@ cv::Mat ConvertPixels(const cv::Mat& stored, PixelLayout layout, bool colour) {
 void CheckPhotoSize(double width, double height) {
   if (width < 1 || height < 1) throw std::runtime_error("it has no pixels");
   if (width * height > kMaxPixels) {
-    throw std::runtime_error("it is " + std::to_string(static_cast<long>(width)) + " x " +
-                             std::to_string(static_cast<long>(height)) +
-                             " pixels, above the limit of 400 million");
+    throw PhotoTooLarge("it is " + std::to_string(static_cast<long>(width)) + " x " +
+                        std::to_string(static_cast<long>(height)) +
+                        " pixels, above the limit of 400 million");
   }
 }
 
