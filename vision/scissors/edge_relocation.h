@@ -31,8 +31,8 @@ namespace bladecurve {
 // Where nobody knows the tilt edges far unlike are looked for inside a shadow or, if they are not
 // clear, on a faint border; one that has a rival is taken where the other puts it, if it alone is
 // seen there, and far better, and not far in; or the inner one further out as above. Whatever is
-// moved is ambiguous then. Edges that pass by the pivot as those of scissors do stay where they
-// were if they would hardly pass by it elsewhere.
+// moved is ambiguous then, and less certain where a slant may have parted them. Edges that pass by
+// the pivot as those of scissors do stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
 
 // Once ends at which the edges part are cut off, those that mirrored each other with them may not
