@@ -286,10 +286,11 @@ TEST(RefuseMissingCrotch, WhereItIsInDoubtWhatIsBlade) {
     blades.lower.used.assign(1, {.trend_px = {kFrom, gap_px / 2}});
   };
   part_by(35);  // the ends by 160
-  EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, blades));
+  EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, {}, blades));
   part_by(60);
-  EXPECT_THROW(RefuseMissingCrotch(doubtful, blades), Refused);
-  EXPECT_NO_THROW(RefuseMissingCrotch(plain, blades)) << "a label may lie on it";
+  EXPECT_THROW(RefuseMissingCrotch(doubtful, {}, blades), Refused);
+  EXPECT_NO_THROW(RefuseMissingCrotch(plain, {}, blades)) << "a label may lie on it";
+  EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, TiltKnown(), blades));
 }
 
 TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
