@@ -282,8 +282,9 @@ TEST(RefuseMissingCrotch, WhereItIsInDoubtWhatIsBlade) {
   doubtful.quality = 0.5;
   Blades blades = BladesWithRivals(0, 0);
   const auto part_by = [&](double gap_px) {
-    blades.upper.used.assign(1, {.trend_px = {kFrom, -gap_px / 2}});
-    blades.lower.used.assign(1, {.trend_px = {kFrom, gap_px / 2}});
+    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) blade->used.resize(1);
+    blades.upper.used[0].trend_px = {kFrom, -gap_px / 2};
+    blades.lower.used[0].trend_px = {kFrom, gap_px / 2};
   };
   part_by(35);  // the ends by 160
   EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, {}, blades));
