@@ -275,25 +275,6 @@ TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   EXPECT_NO_THROW(RefuseUnconfirmedScene(again, {}, faint));
 }
 
-TEST(RefuseMissingCrotch, WhereItIsInDoubtWhatIsBlade) {
-  constexpr double kFrom = 100;  // px from the pivot
-  Scene plain, doubtful;
-  plain.quality = 0.9;
-  doubtful.quality = 0.5;
-  Blades blades = BladesWithRivals(0, 0);
-  const auto part_by = [&](double gap_px) {
-    for (LocatedBlade* blade : {&blades.upper, &blades.lower}) blade->used.resize(1);
-    blades.upper.used[0].trend_px = {kFrom, -gap_px / 2};
-    blades.lower.used[0].trend_px = {kFrom, gap_px / 2};
-  };
-  part_by(35);  // the ends by 160
-  EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, {}, blades));
-  part_by(60);
-  EXPECT_THROW(RefuseMissingCrotch(doubtful, {}, blades), Refused);
-  EXPECT_NO_THROW(RefuseMissingCrotch(plain, {}, blades)) << "a label may lie on it";
-  EXPECT_NO_THROW(RefuseMissingCrotch(doubtful, TiltKnown(), blades));
-}
-
 TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
   const Blades found = BladesWithRivals(0, 0);
   const Pivot pivot = PivotSeen(0);

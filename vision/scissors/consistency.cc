@@ -194,17 +194,4 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
           (pivot.source == "hint" ? "check --pivot" : "say where the screw is: --pivot X,Y"));
 }
 
-void RefuseMissingCrotch(const Scene& scene, const ScaleResult& scale, const Blades& blades) {
-  constexpr double kFar = 0.3;  // of how far the ends are apart; in 40 such photographs up to 0.2
-  if (!scene.IsDoubtful() || scale.sheet) return;
-  const Eigen::Vector2d begin =
-      blades.upper.used.front().trend_px - blades.lower.used.front().trend_px;
-  const Eigen::Vector2d end = blades.upper.end.point_px - blades.lower.end.point_px;
-  if (begin.norm() <= kFar * end.norm()) return;
-  throw Refused(Reason::kLowContrast,
-                "edges: shadows or a ground as bright as the blades leave it in doubt what is "
-                "blade, and what was taken for the two edges does not begin in a crotch between "
-                "the blades; use another ground or softer light");
-}
-
 }  // namespace bladecurve

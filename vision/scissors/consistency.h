@@ -55,9 +55,4 @@ void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot);
 // Refused{kAmbiguousPivot}.
 void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot);
 
-// Throws Refused{kLowContrast} for a doubtful scene whose edges begin far from each other: blades
-// part in a crotch, from which both run. Not in a view of known tilt, where it says more that they
-// mirror each other.
-void RefuseMissingCrotch(const Scene& scene, const ScaleResult& scale, const Blades& blades);
-
 }  // namespace bladecurve

@@ -95,7 +95,6 @@ void CheckAgainstEachOther(const BladeView& view, const Pivot& pivot, Blades* bl
   RefusePivotOffJoint(view.scene(), pivot);
   RefuseUnlikeEdges(pivot, view.scale(), *blades);
   RefuseUnconfirmedScene(view.scene(), view.scale(), pivot);
-  RefuseMissingCrotch(view.scene(), view.scale(), *blades);
   CutWhereEdgesPart(view, pivot, blades);
   DoubtMovedEdges(view, pivot, blades);
   ConfirmMirroredEdges(view, pivot, blades);
