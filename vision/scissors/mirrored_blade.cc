@@ -145,10 +145,11 @@ void ReplaceAssumed(const MirroredBladeSearch& search,
                     const char* where,
                     LocatedBlade* blade) {
   constexpr double kShare = 0.6;  // of the way, standard
+  if (KnowsMirror(search.view, search.pivot)) return Replace(found, where, blade);
   const double way_px = MedianDistance(found.blade.edge, blade->edge);
   Replace(found, where, blade);
   MarkAsAssumed(search.view, search.pivot, blade);
-  if (!KnowsMirror(search.view, search.pivot)) AddSigma(&blade->edge, kShare * way_px);
+  AddSigma(&blade->edge, kShare * way_px);
 }
 
 }  // namespace bladecurve
