@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "measured_blades.h"
 #include "vision/edge_images.h"
@@ -298,6 +299,56 @@ TEST(LocateBlades, DoubtsNoBevelWhereTheOtherBladesOuterSideCastsNothing) {
     const BladeEdges edges = Seen(spec).Locate();
     EXPECT_LE(edges.lower.ambiguity, kAsGood) << seed;
     EXPECT_LT(FarFrom(TruthOf(spec).lower, edges.lower.points), kClosePx) << seed;
+  }
+}
+
+// A picture on white, not quite overexposed, of slightly bluish steel, whose colour compression has
+// taken from along the blades' borders, `smear_px` wide.
+cv::Mat WithSmearedColours(const cv::Mat& picture, int smear_px) {
+  constexpr double kDimmed = 0.9, kMetal = 215;  // of the grey values; what is darker
+  constexpr double kNeutral = 128, kRed = -4, kBlue = 5;
+  const int width = 2 * smear_px + 1;
+  const cv::Mat window = cv::getStructuringElement(cv::MORPH_ELLIPSE, {width, width});
+  cv::Mat luma, blue_inside, smeared;
+  cv::cvtColor(kDimmed * picture, luma, cv::COLOR_BGR2GRAY);
+  cv::erode(luma < kMetal, blue_inside, window);
+  cv::Mat red(luma.size(), CV_8U, cv::Scalar(kNeutral)), blue = red.clone();
+  red.setTo(kNeutral + kRed, blue_inside);
+  blue.setTo(kNeutral + kBlue, blue_inside);
+  cv::merge(std::vector{luma, red, blue}, smeared);
+  cv::cvtColor(smeared, smeared, cv::COLOR_YCrCb2BGR);
+  return smeared;
+}
+
+// In pictures on white, whose colours hardly tell blades from ground, these end further in than
+// grey does along the blades' other sides too.
+TEST(LocateBlades, TakesNoColoursThatCompressionSmeared) {
+  constexpr double kClosePx = 0.3;
+  for (const int smear_px : {4, 5}) {
+    SceneSpec spec = SceneWithShadowsInTheGap(60 * kDegree);
+    spec.backdrop = Backdrop::kCutOut;
+    spec.light.shadow = spec.light.contact_shadow = 0;
+    const BladeEdges edges =
+        Seen(spec, WithSmearedColours(RenderScene(spec).bgr, smear_px)).Locate();
+    const SceneTruth truth = TruthOf(spec);
+    EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << smear_px;
+    EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << smear_px;
+  }
+}
+
+// A narrow bevel along the upper edge that mirrors a coloured ground, and is brighter. Light falls
+// at its border, going outwards, which it does at no shadow's.
+TEST(LocateBlades, TakesNoBrightBevelForGround) {
+  constexpr double kClosePx = 0.5, kBright = 1.5;  // times the ground's grey values
+  for (const double bevel_px : {3.0, 4.0, 5.0}) {
+    SceneSpec spec = SceneLitFromItsUpperEdgesSide(50 * kDegree);
+    spec.light.shadow = spec.light.contact_shadow = 0;
+    const cv::Mat picture =
+        RetouchedAlongUpperEdge(spec, 0.5, bevel_px, [&](const cv::Vec3d& sheet, double, double) {
+          return kBright * sheet;
+        });
+    const BladeEdges edges = Seen(spec, picture).Locate();
+    EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx) << bevel_px;
   }
 }
 

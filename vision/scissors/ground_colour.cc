@@ -56,6 +56,14 @@ struct ColoursBeside {
   }
 };
 
+// Whether colours that hardly differ end where grey does along the blade's outer side: compression
+// smears them over several pixels.
+bool EndWithGrey(const ColoursBeside& colours, double told_apart) {
+  const std::optional<LocatedEdge>& side = colours.view.OuterSide(colours.left);
+  const auto border = side ? colours.BorderAlong(*side, told_apart) : std::nullopt;
+  return border && std::abs(border->offset_px) < kFarPx;
+}
+
 // From what may be a shadow's border, at which light rises, inwards to where colours hardly differ,
 // if the edge is seen there: a shadow that passes for blade unseen. Where grey leaves a doubt they
 // are not asked, and that no edge is seen raises none.
@@ -65,21 +73,27 @@ void LeavePassingShadow(const ColoursBeside& colours, LocatedEdge* edge) {
   const auto border = colours.BorderAlong(*edge, kHardlyApart);
   if (!border || border->offset_px > -kFarPx) return;
   if (CastsNoShadow(colours.view, *edge, colours.left, border->offset_px) ||
-      CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px))
+      CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px) ||
+      !EndWithGrey(colours, kHardlyApart))
     return;
   if (auto within = colours.EdgeAt(*border, *edge, kHardlyApart)) *edge = *std::move(within);
 }
 
-// From a line at which only light changes to the one at which the ground's colour ends.
+// From a line at which only light changes to the one at which the ground's colour ends. Not inwards
+// where light falls, going outwards: that is no shadow's border, and a bright bevel mirrors the
+// ground's colour.
 void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
   const auto border = colours.BorderAlong(*edge);
   if (!border) return LeavePassingShadow(colours, edge);
   if (std::abs(border->offset_px) < kFarPx) return;
-  const bool is_within = border->offset_px < 0 && TypicalContrast(*edge) > 0;
-  if (is_within && CastsNoShadow(colours.view, *edge, colours.left, border->offset_px)) return;
-  const bool is_lit =
-      is_within && CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px);
-  if (auto there = is_lit ? std::nullopt : colours.EdgeAt(*border, *edge)) {
+  const bool is_within = border->offset_px < 0;
+  const bool rises = TypicalContrast(*edge) > 0;
+  if (is_within && rises && CastsNoShadow(colours.view, *edge, colours.left, border->offset_px))
+    return;
+  const bool stays =
+      is_within &&
+      (!rises || CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px));
+  if (auto there = stays ? std::nullopt : colours.EdgeAt(*border, *edge)) {
     *edge = *std::move(there);
     return;
   }
