@@ -69,9 +69,10 @@ bool EndWithGrey(const ColoursBeside& colours, double told_apart) {
 // are not asked, and that no edge is seen raises none.
 void LeavePassingShadow(const ColoursBeside& colours, LocatedEdge* edge) {
   constexpr double kHardlyApart = 0.05;
+  constexpr double kSurelyFarPx = 2;  // what colours tell apart that hardly differ
   if (TypicalContrast(*edge) <= 0 || edge->ambiguity > kAsGood) return;
   const auto border = colours.BorderAlong(*edge, kHardlyApart);
-  if (!border || border->offset_px > -kFarPx) return;
+  if (!border || border->offset_px > -kSurelyFarPx) return;
   if (CastsNoShadow(colours.view, *edge, colours.left, border->offset_px) ||
       CastsToOtherSide(colours.view, *edge, colours.left, border->offset_px) ||
       !EndWithGrey(colours, kHardlyApart))
