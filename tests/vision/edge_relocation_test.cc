@@ -578,15 +578,21 @@ TEST(BorrowOuterOne, TakesTheOuterOneForItsShadowsUnlessTheInnerOneMayBeABevels)
 }
 
 // It is the curve that is told of the blade; the view's tilt may part the edges, too, which is
-// said.
+// said. It alone does where no other line is seen beside the edge.
 TEST(RelocateUnlikeEdges, FindsTheUpperEdgeFurtherOutWithoutMarkers) {
   constexpr double kAsidePx = 25, kClosePx = 0.3, kDoubtPx = 8;
-  Measured measured{SceneWithMarkers()};
-  measured.Misplace(&measured.blades.upper, -kAsidePx);
-  measured.scale.sheet.reset();
-  Relocate(&measured);
-  EXPECT_LT(FarFrom(measured.truth.upper, measured.blades.upper.used), kClosePx);
-  EXPECT_GT(measured.blades.upper.edge.common_sigma_px, kDoubtPx);
+  for (const double ambiguity : {0.3, 0.1}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    measured.Misplace(&upper, -kAsidePx);
+    upper.edge.ambiguity = ambiguity;
+    measured.scale.sheet.reset();
+    Relocate(&measured);
+    EXPECT_EQ(upper.moved.empty(), ambiguity < 0.2) << upper.moved;
+    if (upper.moved.empty()) continue;
+    EXPECT_LT(FarFrom(measured.truth.upper, upper.used), kClosePx);
+    EXPECT_GT(upper.edge.common_sigma_px, kDoubtPx);
+  }
 }
 
 // The curve that is told of the blade is not the other one's, unless it is seen to end further out

@@ -52,6 +52,18 @@ TEST(LocateScissors, TellsBladesFromTheHardShadowsThatTheyCast) {
   }
 }
 
+// Seen at a slant, right edges differ, and where the one would mirror the other the ground has
+// faint lines.
+TEST(LocateScissors, LeavesNoClearEdgeForAFarVaguerLineWithoutMarkers) {
+  constexpr double kClosePx = 0.5;
+  SceneSpec spec = RandomScene(5349, Difficulty::kHard);
+  spec.markers.clear();
+  const PhotoMeasurement result = MeasureRendered(spec);
+  const SceneTruth truth = TruthOf(spec);
+  EXPECT_LT(RmsToPath(result.upper_edge_px, truth.upper.px), kClosePx);
+  EXPECT_LT(RmsToPath(result.lower_edge_px, truth.lower.px), kClosePx);
+}
+
 // Jaws, however they are looked at.
 TEST(LocateScissors, GivesUpAfterTheLastLookForTheFirstReason) {
   SceneSpec spec;

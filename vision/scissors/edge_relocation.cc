@@ -228,15 +228,16 @@ void DoubtUnlikeShapes(const Pivot& pivot, Blades* blades) {
     Doubt(&blade->edge, ShareInPx(pivot.unlikeness, pivot, *blades));
 }
 
-// Where a slanted view may part the edges as well. What is told of the upper edge must be seen: the
-// lower one, mirrored, is as wrong as the slant. The lower one is not looked for: in photographs
-// other lines lie where a slanted view would have it.
+// Where a slanted view may part the edges as well. What is told of the upper edge must be seen, and
+// that have a rival: the lower one, mirrored, is as wrong as the slant. The lower one is not looked
+// for: in photographs other lines lie where a slanted view would have it.
 void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.5;  // of the way
   constexpr double kSeen = 0.6;   // ambiguity; cloth has lines of more
   const auto [inner, other] = InnerOne(pivot, blades);
   const MirrorLine line = LineBetween(view, pivot, *blades);
   if (&inner == &blades->lower) return BorrowInnerOne(view, line, pivot, blades);
+  if (inner.edge.ambiguity < kRival) return;
   const MirroredBladeSearch search{view, pivot, other, line};
   std::optional<RelocatedBlade> found = LookWhereMirrored(search);
   if (!found || found->blade.edge.ambiguity > kSeen) return;
@@ -269,17 +270,23 @@ std::optional<RelocatedBlade> LookAlongRival(const MirroredBladeSearch& search,
 }
 
 // The inner one of edges that differ, by no more than bevels are wide, where the blade's colour
-// ends, or along its rival, if there it mirrors the other by far better.
+// ends, or along its rival, if there it mirrors the other by far better and is not far vaguer: what
+// hardly shows lies everywhere.
 void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kWidestBevel = 0.05;            // of the length
   constexpr double kShortOf = 0.5, kDoubt = 0.25;  // of the way
+  constexpr double kVaguer = 3;                    // times the standard uncertainty before
   if (pivot.screw && IsFaint(*pivot.screw)) return;
   if (std::abs(pivot.asymmetry) > kWidestBevel) return;
   const auto [inner, other] = InnerOne(pivot, blades);
   if (IsDoubtful(other.edge)) return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
+  const double most_sigma_px =
+      kVaguer * std::hypot(TypicalSigma(inner.edge.points), SigmaWithoutRival(inner.edge));
   const auto if_better = [&](std::optional<RelocatedBlade> found) {
-    return found && MirrorsFarBetter(search, *found, *blades) ? std::move(found) : std::nullopt;
+    const bool better = found && TotalSigma(found->blade.edge) < most_sigma_px &&
+                        MirrorsFarBetter(search, *found, *blades);
+    return better ? std::move(found) : std::nullopt;
   };
   auto found = if_better(LookInColours(search, WayPx(search)));
   if (!found) found = if_better(LookAlongRival(search, inner));
