@@ -8,6 +8,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -15,7 +17,9 @@
 #include <utility>
 #include <vector>
 
+#include "jpeg_images.h"
 #include "measured_blades.h"
+#include "process_folder.h"
 #include "vision/edge_images.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
@@ -50,8 +54,9 @@ SceneSpec SceneWithShadowsInTheGap(double elevation_rad) {
 // A rendered photograph of known scale up to where its edges are located.
 struct Seen {
   explicit Seen(const SceneSpec& spec) : Seen(spec, RenderScene(spec).bgr) {}
-  Seen(const SceneSpec& spec, const cv::Mat& picture)
-      : photo(Measured::PhotoOf(picture)), scale(FindScale(photo, ScaleOf(spec))) {
+  Seen(const SceneSpec& spec, const cv::Mat& picture) : Seen(spec, Measured::PhotoOf(picture)) {}
+  Seen(const SceneSpec& spec, Photo taken)
+      : photo(std::move(taken)), scale(FindScale(photo, ScaleOf(spec))) {
     StageLog log;
     scene = SceneFinder(photo, scale.markers, {}, &log).Likeliest();
   }
@@ -334,6 +339,30 @@ TEST(LocateBlades, TakesNoColoursThatCompressionSmeared) {
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << smear_px;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << smear_px;
   }
+}
+
+// As cameras store it.
+Photo CompressedPhoto(const cv::Mat& picture, int quality) {
+  cv::Mat red_first, parts[3], blue_first;
+  cv::cvtColor(picture, red_first, cv::COLOR_BGR2YCrCb);
+  cv::split(red_first, parts);
+  cv::merge(std::vector{parts[0], parts[2], parts[1]}, blue_first);
+  JpegSettings settings;
+  settings.space = JCS_YCbCr;
+  settings.channels = 3;
+  settings.quality = quality;
+  const std::filesystem::path file = ProcessFolder() / "compressed.jpg";
+  std::ofstream(file, std::ios::binary) << Jpeg(blue_first, settings);
+  return Photo::Load(file);
+}
+
+// Nor are they told apart to less than a pixel of theirs, two of the photograph's.
+TEST(LocateBlades, TakesNoColoursThatEndAPixelFurtherIn) {
+  constexpr double kClosePx = 0.3;
+  SceneSpec spec = RandomScene(7011);
+  spec.markers.clear();
+  const BladeEdges edges = Seen(spec, CompressedPhoto(RenderScene(spec).bgr, 90)).Locate();
+  EXPECT_LT(FarFrom(TruthOf(spec).upper, edges.upper.points), kClosePx);
 }
 
 // A narrow bevel along the upper edge that mirrors a coloured ground, and is brighter. Light falls
