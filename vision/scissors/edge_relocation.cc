@@ -270,8 +270,8 @@ std::optional<RelocatedBlade> LookAlongRival(const MirroredBladeSearch& search,
 }
 
 // The inner one of edges that differ, by no more than bevels are wide, where the blade's colour
-// ends, or along its rival, if there it mirrors the other by far better and is not far vaguer: what
-// hardly shows lies everywhere.
+// ends, or along its rival, if there it mirrors the other by far better. Where a slanted view may
+// part them as well, not where it is far vaguer: what hardly shows lies everywhere.
 void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kWidestBevel = 0.05;            // of the length
   constexpr double kShortOf = 0.5, kDoubt = 0.25;  // of the way
@@ -281,12 +281,14 @@ void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blade
   const auto [inner, other] = InnerOne(pivot, blades);
   if (IsDoubtful(other.edge)) return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
-  const double most_sigma_px =
-      kVaguer * std::hypot(TypicalSigma(inner.edge.points), SigmaWithoutRival(inner.edge));
+  const double sigma_px =
+      std::hypot(TypicalSigma(inner.edge.points), SigmaWithoutRival(inner.edge));
+  const auto is_better = [&](const RelocatedBlade& found) {
+    return (KnowsMirror(view, pivot) || TotalSigma(found.blade.edge) < kVaguer * sigma_px) &&
+           MirrorsFarBetter(search, found, *blades);
+  };
   const auto if_better = [&](std::optional<RelocatedBlade> found) {
-    const bool better = found && TotalSigma(found->blade.edge) < most_sigma_px &&
-                        MirrorsFarBetter(search, *found, *blades);
-    return better ? std::move(found) : std::nullopt;
+    return found && is_better(*found) ? std::move(found) : std::nullopt;
   };
   auto found = if_better(LookInColours(search, WayPx(search)));
   if (!found) found = if_better(LookAlongRival(search, inner));

@@ -22,8 +22,8 @@ namespace bladecurve {
 //   one where a doubtful one puts it; if neither does, the inner one along the other's mirror
 //   image, if they differ by more than the pivot may be off and that lies on a faint border along
 //   its whole, or else, however clear it is, where the blade's colour ends or along its rival
-//   further out, no further than bevels are wide, if there it mirrors the other by far better and
-//   is not far vaguer; if neither helps, the vaguer one is doubted by as much as they differ;
+//   further out, no further than bevels are wide, if there it mirrors the other by far better; if
+//   neither helps, the vaguer one is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful and
 //   has a rival, that one, if it is seen where the other puts it; if a doubtful one is not, the
 //   other's mirror image, if that is clear and most of the doubtful one lies on it.
@@ -31,9 +31,9 @@ namespace bladecurve {
 // Where nobody knows the tilt edges far unlike are looked for inside a shadow or, if they are not
 // clear, on a faint border, the upper one only if it has a rival; one that has a rival is taken
 // where the other puts it, if it alone is seen there, and far better, and not far in; or the inner
-// one further out as above. Whatever is moved is ambiguous then, and less certain where a slant may
-// have parted them. Edges that pass by the pivot as those of scissors do stay where they were if
-// they would hardly pass by it elsewhere.
+// one further out as above, if it is not far vaguer. Whatever is moved is ambiguous then, and less
+// certain where a slant may have parted them. Edges that pass by the pivot as those of scissors do
+// stay where they were if they would hardly pass by it elsewhere.
 void RelocateUnlikeEdges(const BladeView& view, Pivot* pivot, Blades* blades);
 
 // Once ends at which the edges part are cut off, those that mirrored each other with them may not
