@@ -341,18 +341,11 @@ TEST(LocateBlades, TakesNoColoursThatCompressionSmeared) {
   }
 }
 
-// As cameras store it.
+// As cameras store it, colours at half the resolution.
 Photo CompressedPhoto(const cv::Mat& picture, int quality) {
-  cv::Mat red_first, parts[3], blue_first;
-  cv::cvtColor(picture, red_first, cv::COLOR_BGR2YCrCb);
-  cv::split(red_first, parts);
-  cv::merge(std::vector{parts[0], parts[2], parts[1]}, blue_first);
-  JpegSettings settings;
-  settings.space = JCS_YCbCr;
-  settings.channels = 3;
-  settings.quality = quality;
   const std::filesystem::path file = ProcessFolder() / "compressed.jpg";
-  std::ofstream(file, std::ios::binary) << Jpeg(blue_first, settings);
+  std::ofstream(file, std::ios::binary)
+      << Jpeg(picture, {.space = JCS_EXT_BGR, .channels = 3, .quality = quality});
   return Photo::Load(file);
 }
 

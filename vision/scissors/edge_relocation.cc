@@ -228,9 +228,9 @@ void DoubtUnlikeShapes(const Pivot& pivot, Blades* blades) {
     Doubt(&blade->edge, ShareInPx(pivot.unlikeness, pivot, *blades));
 }
 
-// Where a slanted view may part the edges as well. What is told of the upper edge must be seen, and
-// that have a rival: the lower one, mirrored, is as wrong as the slant. The lower one is not looked
-// for: in photographs other lines lie where a slanted view would have it.
+// Where a slanted view may part the edges as well. The upper edge is left only if it has a rival,
+// and for what is seen: the lower one, mirrored, is as wrong as the slant. The lower one is not
+// looked for: in photographs other lines lie where a slanted view would have it.
 void RelocateInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kDoubt = 0.5;  // of the way
   constexpr double kSeen = 0.6;   // ambiguity; cloth has lines of more
