@@ -54,6 +54,11 @@ void Validate(const SceneSpec& scene) {
   Require(scene.sensor.gamma > 0, "sensor.gamma", scene.sensor.gamma, "positive");
 }
 
+// Shares of a pixel's light that are left out.
+constexpr float kNothing = 1e-6f;
+
+bool IsNothing(const cv::Mat1f& shares) { return cv::norm(shares, cv::NORM_INF) < kNothing; }
+
 bool Touches(const Layer& layer, const cv::Rect2d& area) {
   return (layer.bounds & area).area() > 0;
 }
@@ -74,11 +79,35 @@ bool HasEdgeIn(const Layer& layer, const cv::Rect2d& area) {
   return false;
 }
 
+bool Covers(const Layer& layer, const Eigen::Vector2d& px) {
+  const CoverageGrid cell{.origin_px = px, .cols = 1, .rows = 1};
+  return render::PolygonCoverage(layer.polygon, cell)(0, 0) > 0.5f;
+}
+
+// What of a stage a tile may show.
+struct LayerInTile {
+  const Layer* layer;
+  bool has_edge;  // else it covers the whole tile
+};
+
+// Bottom first.
+std::vector<LayerInTile> LayersIn(const Stage& stage, const cv::Rect2d& area) {
+  const Eigen::Vector2d middle(area.x + 0.5 * area.width, area.y + 0.5 * area.height);
+  std::vector<LayerInTile> present;
+  for (const Layer& layer : stage.layers()) {
+    if (!Touches(layer, area)) continue;
+    const bool has_edge = HasEdgeIn(layer, area);
+    if (!has_edge && !Covers(layer, middle)) continue;
+    if (!has_edge) present.clear();  // nothing below it is seen
+    present.push_back({&layer, has_edge});
+  }
+  return present;
+}
+
 void AddWeighted(const cv::Mat1f& weights,
                  const Colour& colour,
                  const cv::Rect& tile,
                  cv::Mat3f* picture) {
-  constexpr float kNothing = 1e-6f;
   for (int r = 0; r < tile.height; ++r) {
     for (int c = 0; c < tile.width; ++c) {
       const float weight = weights(r, c);
@@ -99,13 +128,9 @@ void RenderTile(const Stage& stage,
   const int halo = edge_kernel.halo_px;
   const cv::Rect2d area(
       tile.x - 0.5 - halo, tile.y - 0.5 - halo, tile.width + 2 * halo, tile.height + 2 * halo);
-  std::vector<const Layer*> present;
-  bool has_edge = false;
-  for (const Layer& layer : stage.layers()) {
-    if (!Touches(layer, area)) continue;
-    present.push_back(&layer);
-    has_edge = has_edge || HasEdgeIn(layer, area);
-  }
+  const std::vector<LayerInTile> present = LayersIn(stage, area);
+  const bool has_edge =
+      std::any_of(present.begin(), present.end(), [](const LayerInTile& l) { return l.has_edge; });
   static const PixelKernel kFlat{.oversampling = 1, .halo_px = 0, .weights = {1.0f}};
   const PixelKernel& kernel = has_edge ? edge_kernel : kFlat;
   const CoverageGrid grid{
@@ -114,14 +139,17 @@ void RenderTile(const Stage& stage,
       .cols = (tile.width + 2 * kernel.halo_px) * kernel.oversampling,
       .rows = (tile.height + 2 * kernel.halo_px) * kernel.oversampling};
   cv::Mat1f uncovered = cv::Mat1f::ones(grid.rows, grid.cols);
-  for (auto layer = present.rbegin(); layer != present.rend(); ++layer) {
-    const cv::Mat1f coverage = render::PolygonCoverage((*layer)->polygon, grid);
-    const cv::Mat1f visible = uncovered.mul(coverage);
-    if (cv::countNonZero(visible) == 0) continue;
+  for (auto seen = present.rbegin(); seen != present.rend(); ++seen) {
+    const Layer& layer = *seen->layer;
+    const cv::Mat1f visible =
+        seen->has_edge ? cv::Mat1f(uncovered.mul(render::PolygonCoverage(layer.polygon, grid)))
+                       : uncovered;
+    if (!IsNothing(visible))
+      AddWeighted(render::IntegratePixels(visible, kernel), layer.colour, tile, picture);
+    if (!seen->has_edge) return;
     uncovered -= visible;
-    AddWeighted(render::IntegratePixels(visible, kernel), (*layer)->colour, tile, picture);
   }
-  if (cv::countNonZero(uncovered) == 0) return;
+  if (IsNothing(uncovered)) return;
   AddWeighted(
       render::IntegratePixels(uncovered, kernel),
       [&stage](const Eigen::Vector2d& px) { return stage.sheet().ColourAt(px); },

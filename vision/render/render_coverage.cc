@@ -3,6 +3,7 @@
 #include "vision/render/render_coverage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -142,13 +143,20 @@ cv::Mat1f IntegratePixels(const cv::Mat1f& cells, const PixelKernel& kernel) {
       for (int c = 0; c < cells.cols; ++c) sum[c] += weight * cell[c];
     }
   }
+  // Several sums at a time: none waits for another one's last addition.
+  constexpr int kAtOnce = 8;
   cv::Mat1f pixels(rows, cols);
   for (int r = 0; r < rows; ++r) {
-    for (int c = 0; c < cols; ++c) {
+    for (int c = 0; c < cols; c += kAtOnce) {
+      const int count = std::min(kAtOnce, cols - c);
       const float* cell = tall[r] + static_cast<std::ptrdiff_t>(c) * k;
-      float sum = 0;
-      for (int i = 0; i < taps; ++i) sum += kernel.weights[static_cast<std::size_t>(i)] * cell[i];
-      pixels(r, c) = sum;
+      std::array<float, kAtOnce> sums{};
+      for (int i = 0; i < taps; ++i) {
+        const float weight = kernel.weights[static_cast<std::size_t>(i)];
+        for (int j = 0; j < count; ++j)
+          sums[static_cast<std::size_t>(j)] += weight * cell[i + j * k];
+      }
+      std::copy_n(sums.begin(), count, pixels[r] + c);
     }
   }
   return pixels;

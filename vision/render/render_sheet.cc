@@ -35,11 +35,12 @@ Eigen::Vector3d Wood(std::uint64_t seed, const Eigen::Vector2d& p, double streng
 Sheet::Sheet(const SceneSpec& scene,
              const Camera& camera,
              const std::vector<Polygon>& shadow_casters)
-    : scene_(scene), camera_(camera) {
+    : scene_(scene),
+      camera_(camera),
+      towards_light_(std::cos(scene.light.direction_rad), std::sin(scene.light.direction_rad)) {
   const LightSpec& light = scene.light;
   const double length_mm = scene.edge_height_mm / std::tan(light.elevation_rad);
-  const Eigen::Vector2d offset_mm =
-      -length_mm * Eigen::Vector2d(std::cos(light.direction_rad), std::sin(light.direction_rad));
+  const Eigen::Vector2d offset_mm = -length_mm * towards_light_;
   if (light.shadow > 0) cast_shadow_ = MakeShadow(shadow_casters, offset_mm, light.shadow_blur_mm);
   if (light.contact_shadow > 0) {
     constexpr double kContactReach =
@@ -78,14 +79,12 @@ CoarseField Sheet::MakeFolds() const {
     const double n = FractalNoise(scene_.seed + 101, x / kFoldMm, y / kFoldMm, 3);
     return 1 - std::abs(n);  // ridges where the noise changes sign
   };
-  const Eigen::Vector2d towards_light(std::cos(scene_.light.direction_rad),
-                                      std::sin(scene_.light.direction_rad));
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < cols; ++c) {
       const Eigen::Vector2d p = camera_.WorldFromPixel(
           Eigen::Vector2d(c + 0.5, r + 0.5) * field.step_px - Eigen::Vector2d(0.5, 0.5), 0);
       constexpr double kDeltaMm = 4;
-      const Eigen::Vector2d q = p + kDeltaMm * towards_light;
+      const Eigen::Vector2d q = p + kDeltaMm * towards_light_;
       const double slope = height(p.x(), p.y()) - height(q.x(), q.y());
       field.values(r, c) = static_cast<float>(0.9 * scene_.texture * slope);
     }
@@ -95,8 +94,7 @@ CoarseField Sheet::MakeFolds() const {
 
 double Sheet::LightAt(const Eigen::Vector2d& px) const {
   const double x = px.x() / scene_.width - 0.5, y = 0.5 - px.y() / scene_.height;
-  const double along =
-      x * std::cos(scene_.light.direction_rad) + y * std::sin(scene_.light.direction_rad);
+  const double along = x * towards_light_.x() + y * towards_light_.y();
   const double open = 1 + scene_.light.falloff * along;
   const double shadow = (1 - scene_.light.shadow * cast_shadow_.At(px)) *
                         (1 - scene_.light.contact_shadow * contact_shadow_.At(px));

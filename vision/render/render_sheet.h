@@ -33,6 +33,7 @@ class Sheet {
 
   const SceneSpec& scene_;
   const Camera& camera_;
+  Eigen::Vector2d towards_light_;  // in the sheet's plane, of length 1
   CoarseField cast_shadow_, contact_shadow_, folds_;
 };
 
