@@ -96,6 +96,43 @@ std::string Text(const char* format, double a, double b) {
   return text;
 }
 
+cv::Rect2d BoxAround(const View& view, const std::vector<Vector2d>& points_px) {
+  Vector2d low = view.ViewFromPhoto(points_px.front()), high = low;
+  for (const Vector2d& point : points_px) {
+    low = low.cwiseMin(view.ViewFromPhoto(point));
+    high = high.cwiseMax(view.ViewFromPhoto(point));
+  }
+  return {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
+}
+
+// Where the writing of the angle begins: beyond the ends, or aside of what `blades` encloses where
+// the picture ends too soon.
+Vector2d PlaceForAngle(const View& view,
+                       const Vector2d& beyond_ends,
+                       const Vector2d& axis_px,
+                       const cv::Rect2d& blades,
+                       double width,
+                       double text) {
+  const cv::Rect2d picture(text, 2 * text, view.image.cols - 2 * text, view.image.rows - 3 * text);
+  const auto clamped = [&](Vector2d at) {
+    at.x() = std::clamp(at.x(), picture.x, std::max(picture.x, picture.br().x - width));
+    at.y() = std::clamp(at.y(), picture.y, std::max(picture.y, picture.br().y));
+    return at;
+  };
+  const auto hides_blades = [&](const Vector2d& at) {
+    return (cv::Rect2d(at.x(), at.y() - text, width, text) & blades).area() > 0;
+  };
+  const Vector2d ahead = clamped(
+      beyond_ends + Vector2d(-0.5 * (1 - axis_px.x()) * width, 0.5 * (1 + axis_px.y()) * text));
+  if (!hides_blades(ahead)) return ahead;
+  const bool lies = std::abs(axis_px.x()) > std::abs(axis_px.y());
+  const Vector2d after = lies ? Vector2d(ahead.x(), blades.br().y + 1.5 * text)
+                              : Vector2d(blades.br().x + text, ahead.y());
+  const Vector2d before = lies ? Vector2d(ahead.x(), blades.y - 0.5 * text)
+                               : Vector2d(blades.x - width - text, ahead.y());
+  return hides_blades(clamped(after)) ? clamped(before) : clamped(after);
+}
+
 void DrawAngle(View& view, const Overlay& overlay, double text) {
   const double reach = ReachPx(overlay);
   const double half = overlay.theta_rad / 2;
@@ -113,10 +150,18 @@ void DrawAngle(View& view, const Overlay& overlay, double text) {
   const double degrees = 180 / std::numbers::pi;
   const std::string label =
       Text("%.2f +- %.2f deg", overlay.theta_rad * degrees, overlay.theta_sigma_rad * degrees);
-  Vector2d at = view.ViewFromPhoto(overlay.pivot_px + 1.16 * reach * overlay.axis_px);
-  at.x() =
-      std::clamp(at.x(), text, std::max(text, view.image.cols - TextWidth(label, text) - text));
-  at.y() = std::clamp(at.y(), 2 * text, view.image.rows - text);
+  constexpr double kBackRad = 0.12;  // from the edge to the back of a blade
+  std::vector<Vector2d> around = arc;
+  around.push_back(overlay.pivot_px);
+  for (const double side : {half + kBackRad, -half - kBackRad})
+    around.push_back(overlay.pivot_px + reach * Turned(overlay.axis_px, side));
+  const Vector2d at =
+      PlaceForAngle(view,
+                    view.ViewFromPhoto(overlay.pivot_px + 1.16 * reach * overlay.axis_px),
+                    overlay.axis_px,
+                    BoxAround(view, around),
+                    TextWidth(label, text),
+                    text);
   DrawText(view, label, at, text, kFrameColour);
 }
 
@@ -223,9 +268,9 @@ void DrawOnPhoto(const Photo& photo,
                  const cv::Mat& image) {
   PaintPhoto(photo, layout, image);
   View view = PhotoView(layout, image);
-  DrawEdges(view, overlay);
   DrawPivot(view, overlay, layout.text);
   DrawAngle(view, overlay, layout.text);
+  DrawEdges(view, overlay);  // last: these are to be checked
   DrawScaleBar(view, overlay, layout);
 }
 
