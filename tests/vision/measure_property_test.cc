@@ -149,9 +149,14 @@ Change Exposed(double stops) {
 Change Noisy(double grey) {
   return {"noise of " + std::to_string(static_cast<int>(grey)),
           [grey](const cv::Mat& picture) {
-            cv::Mat noise(picture.size(), CV_MAKETYPE(CV_16S, picture.channels())), noisy;
-            cv::RNG(7).fill(noise, cv::RNG::NORMAL, cv::Scalar::all(0), cv::Scalar::all(grey));
-            cv::add(picture, noise, noisy, {}, CV_8U);
+            std::mt19937 random(7);
+            std::normal_distribution<double> noise(0, grey);
+            cv::Mat noisy = picture.clone();
+            for (int row = 0; row < noisy.rows; ++row) {
+              uchar* values = noisy.ptr(row);
+              for (int k = 0; k < noisy.cols * noisy.channels(); ++k)
+                values[k] = cv::saturate_cast<uchar>(values[k] + noise(random));
+            }
             return noisy;
           },
           Stays};
