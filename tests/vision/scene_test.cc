@@ -929,13 +929,14 @@ TEST(MeasurePhoto, RefusesAPivotThatNothingTells) {
 }
 
 TEST(MeasurePhoto, TakesNoPairThatDoesNotTurnAboutTheGivenPivot) {
-  const auto [picture, truth] = RenderScene(SmallScene());
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const SceneTruth& truth = photo.truth;
   const Eigen::Vector2d to_tips = 0.5 * (truth.upper.end_px + truth.lower.end_px) - truth.pivot_px;
   const Eigen::Vector2d across = Eigen::Vector2d(-to_tips.y(), to_tips.x());
-  const auto about = [&, &pivot_px = truth.pivot_px](double along, double aside) {
+  const auto about = [&](double along, double aside) {
     SceneHints hints;
-    hints.pivot_px = pivot_px + along * to_tips + aside * across;
-    return ReasonFor(picture, hints);
+    hints.pivot_px = truth.pivot_px + along * to_tips + aside * across;
+    return ReasonFor(photo.bgr, hints);
   };
   EXPECT_EQ(about(0, 0), "");
   EXPECT_EQ(about(0.02, 0.02), "") << "pointed to in a hurry";
