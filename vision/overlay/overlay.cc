@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/overlay/overlay.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -96,41 +97,32 @@ std::string Text(const char* format, double a, double b) {
   return text;
 }
 
-cv::Rect2d BoxAround(const View& view, const std::vector<Vector2d>& points_px) {
-  Vector2d low = view.ViewFromPhoto(points_px.front()), high = low;
-  for (const Vector2d& point : points_px) {
-    low = low.cwiseMin(view.ViewFromPhoto(point));
-    high = high.cwiseMax(view.ViewFromPhoto(point));
-  }
-  return {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
-}
-
-// Where the writing of the angle begins: beyond the ends, or aside of what `blades` encloses where
-// the picture ends too soon.
+// Where the writing of the angle begins: beyond the ends, or aside of the box around the blades
+// where the picture ends too soon.
 Vector2d PlaceForAngle(const View& view,
                        const Vector2d& beyond_ends,
                        const Vector2d& axis_px,
-                       const cv::Rect2d& blades,
+                       const Eigen::AlignedBox2d& blades,
                        double width,
                        double text) {
-  const cv::Rect2d picture(text, 2 * text, view.image.cols - 2 * text, view.image.rows - 3 * text);
-  const auto clamped = [&](Vector2d at) {
-    at.x() = std::clamp(at.x(), picture.x, std::max(picture.x, picture.br().x - width));
-    at.y() = std::clamp(at.y(), picture.y, std::max(picture.y, picture.br().y));
-    return at;
+  const Vector2d first(text, 2 * text);
+  const Vector2d last =
+      first.cwiseMax(Vector2d(view.image.cols - text - width, view.image.rows - text));
+  const auto within = [&](const Vector2d& at) -> Vector2d {
+    return at.cwiseMax(first).cwiseMin(last);
   };
-  const auto hides_blades = [&](const Vector2d& at) {
-    return (cv::Rect2d(at.x(), at.y() - text, width, text) & blades).area() > 0;
-  };
-  const Vector2d ahead = clamped(
+  const Vector2d ahead = within(
       beyond_ends + Vector2d(-0.5 * (1 - axis_px.x()) * width, 0.5 * (1 + axis_px.y()) * text));
-  if (!hides_blades(ahead)) return ahead;
   const bool lies = std::abs(axis_px.x()) > std::abs(axis_px.y());
-  const Vector2d after = lies ? Vector2d(ahead.x(), blades.br().y + 1.5 * text)
-                              : Vector2d(blades.br().x + text, ahead.y());
-  const Vector2d before = lies ? Vector2d(ahead.x(), blades.y - 0.5 * text)
-                               : Vector2d(blades.x - width - text, ahead.y());
-  return hides_blades(clamped(after)) ? clamped(before) : clamped(after);
+  const Vector2d after = lies ? Vector2d(ahead.x(), blades.max().y() + 1.5 * text)
+                              : Vector2d(blades.max().x() + text, ahead.y());
+  const Vector2d before = lies ? Vector2d(ahead.x(), blades.min().y() - 0.5 * text)
+                               : Vector2d(blades.min().x() - width - text, ahead.y());
+  for (const Vector2d& at : {ahead, within(after)}) {
+    const Eigen::AlignedBox2d writing(at - Vector2d(0, text), at + Vector2d(width, 0));
+    if (!writing.intersects(blades)) return at;
+  }
+  return within(before);
 }
 
 void DrawAngle(View& view, const Overlay& overlay, double text) {
@@ -151,15 +143,15 @@ void DrawAngle(View& view, const Overlay& overlay, double text) {
   const std::string label =
       Text("%.2f +- %.2f deg", overlay.theta_rad * degrees, overlay.theta_sigma_rad * degrees);
   constexpr double kBackRad = 0.12;  // from the edge to the back of a blade
-  std::vector<Vector2d> around = arc;
-  around.push_back(overlay.pivot_px);
+  Eigen::AlignedBox2d blades(view.ViewFromPhoto(overlay.pivot_px));
+  for (const Vector2d& point : arc) blades.extend(view.ViewFromPhoto(point));
   for (const double side : {half + kBackRad, -half - kBackRad})
-    around.push_back(overlay.pivot_px + reach * Turned(overlay.axis_px, side));
+    blades.extend(view.ViewFromPhoto(overlay.pivot_px + reach * Turned(overlay.axis_px, side)));
   const Vector2d at =
       PlaceForAngle(view,
                     view.ViewFromPhoto(overlay.pivot_px + 1.16 * reach * overlay.axis_px),
                     overlay.axis_px,
-                    BoxAround(view, around),
+                    blades,
                     TextWidth(label, text),
                     text);
   DrawText(view, label, at, text, kFrameColour);

@@ -35,7 +35,10 @@ Metal::Metal(const SceneSpec& scene, const BladeOutline& outline, bool upper, bo
       outline_(outline),
       upper_(upper),
       on_top_(on_top),
-      turn_rad_(scene.heading_rad + (upper ? 0.5 : -0.5) * scene.theta_rad) {}
+      turn_rad_(scene.heading_rad + (upper ? 0.5 : -0.5) * scene.theta_rad),
+      towards_lamp_(std::cos(scene.light.direction_rad) * std::cos(scene.light.elevation_rad),
+                    std::sin(scene.light.direction_rad) * std::cos(scene.light.elevation_rad),
+                    std::sin(scene.light.elevation_rad)) {}
 
 // What a mirror of that tilt shows: a ceiling, darker towards its border, the sheet below the
 // horizon, and a lamp.
@@ -45,13 +48,10 @@ Eigen::Vector3d Metal::Reflect(const Surface& surface) const {
   const Eigen::Vector3d normal = Eigen::Vector3d(tilt.x(), tilt.y(), 1).normalized();
   const Eigen::Vector3d seen = 2 * normal.z() * normal - Eigen::Vector3d::UnitZ();
   const LightSpec& light = scene_.light;
-  const Eigen::Vector3d lamp(std::cos(light.direction_rad) * std::cos(light.elevation_rad),
-                             std::sin(light.direction_rad) * std::cos(light.elevation_rad),
-                             std::sin(light.elevation_rad));
   constexpr double kLampFocus = 14;  // a lamp some 20 degrees wide, as brushed metal spreads it
   const double ceiling = 0.16 + 0.26 * SmoothStep(-0.2, 1.0, seen.z());
   const double below = 0.18 * (1 - SmoothStep(-0.3, 0.1, seen.z()));
-  const double highlight = light.glint * 1.3 * std::exp(kLampFocus * (seen.dot(lamp) - 1));
+  const double highlight = light.glint * 1.3 * std::exp(kLampFocus * (seen.dot(towards_lamp_) - 1));
   const double backlit =
       scene_.backdrop == Backdrop::kLightTable ? 0.12 : 1;  // light from below only
   return Tint(scene_.finish) *

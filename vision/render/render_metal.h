@@ -38,7 +38,8 @@ class Metal {
   const SceneSpec& scene_;
   const BladeOutline& outline_;
   bool upper_, on_top_;
-  double turn_rad_;  // of the blade's u axis in the world
+  double turn_rad_;               // of the blade's u axis in the world
+  Eigen::Vector3d towards_lamp_;  // in the world, of length 1
 };
 
 }  // namespace bladecurve::render
