@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -119,19 +118,10 @@ int Run(int argc, char** argv) {
   }
 }
 
-// Stages take buffers of megabytes one after the other; of what a hard photograph costs, a tenth
-// and more would be the kernel's, which clears the same pages ever again.
-void KeepFreedMemory() {
-  constexpr int kMebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * kMebibyte);  // the most that glibc takes
-  mallopt(M_TRIM_THRESHOLD, 1024 * kMebibyte);
-}
-
 }  // namespace
 }  // namespace bladecurve
 
 int main(int argc, char** argv) {
-  bladecurve::KeepFreedMemory();
   cv::setNumThreads(1);  // photographs and their parts are shared out by ParallelFor alone
   try {
     return bladecurve::Run(argc, argv);

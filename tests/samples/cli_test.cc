@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,15 @@ TEST(CommandLine, MistypedCommandGetsTheNearestOne) {
 
 TEST(CommandLine, UnknownFlagWithoutNeighbourGetsNoGuess) {
   ExpectWrongUse({"fit", "a.jpg", "--xyzzy"}, "unknown flag --xyzzy (");
+}
+
+// Large photographs take half as long for it.
+TEST(CommandLine, TakesItsMemoryInLargePagesAndKeepsIt) {
+  setenv("MALLOC_CONF", "stats_print:true", 1);
+  const std::string statistics = RunBladecurve({"--version"}, TestFolder()).standard_error;
+  unsetenv("MALLOC_CONF");
+  EXPECT_NE(statistics.find("opt.thp: \"always\""), std::string::npos) << statistics;
+  EXPECT_NE(statistics.find("opt.dirty_decay_ms: -1"), std::string::npos) << statistics;
 }
 
 TEST(CommandLine, NothingAtAllPointsToHelp) { ExpectWrongUse({}, "--help"); }
