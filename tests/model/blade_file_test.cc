@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/model/blade_file_complaint.h"
 #include "tests/model/test_blades.h"
 
 namespace bladecurve {
@@ -39,24 +40,15 @@ class BladeFiles : public testing::Test {
   fs::path folder_;
 };
 
-std::string Complaint(const fs::path& path) {
-  try {
-    (void)ReadBladeFile(path);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 const std::string kTapered =
     R"("curve":{"family":"tapered-rectangle","a_mm":-11,"b":0.14,"gain":0.5})";
-const std::string kDomain = R"("domain":{"x_mm":[20,100],"theta_rad":[0,1]})";
+const std::string kDomainJson = R"("domain":{"x_mm":[20,100],"theta_rad":[0,1]})";
 const std::string kHead = R"("format":"bladecurve/1","name":"small")";
 
 std::string Record(const std::string& members) { return "{" + members + "}"; }
 
 TEST_F(BladeFiles, FourKeysAreEnough) {
-  const BladeFile blade = ReadBladeFile(Write(Record(kHead + "," + kTapered + "," + kDomain)));
+  const BladeFile blade = ReadBladeFile(Write(Record(kHead + "," + kTapered + "," + kDomainJson)));
   EXPECT_EQ(blade.name, "small");
   EXPECT_EQ(blade.status, "ok");
   EXPECT_EQ(std::get<TaperedRectangle>(blade.curve.shape()).a_mm, -11);
@@ -66,20 +58,21 @@ TEST_F(BladeFiles, FourKeysAreEnough) {
 
 TEST_F(BladeFiles, GainIsThePapersUnlessGiven) {
   const std::string curve = R"("curve":{"family":"tapered-rectangle","a_mm":1,"b":0})";
-  const BladeFile blade = ReadBladeFile(Write(Record(kHead + "," + curve + "," + kDomain)));
+  const BladeFile blade = ReadBladeFile(Write(Record(kHead + "," + curve + "," + kDomainJson)));
   EXPECT_EQ(std::get<TaperedRectangle>(blade.curve.shape()).gain, 0.5);
 }
 
 TEST_F(BladeFiles, UnknownKeysAreLeftAlone) {
   const std::string extra = R"(,"made_by":{"x":[1,null]},"photos":[],"fit":null)";
-  EXPECT_EQ(Complaint(Write(Record(kHead + "," + kTapered + "," + kDomain + extra))), "");
+  EXPECT_EQ(BladeFileComplaint(Write(Record(kHead + "," + kTapered + "," + kDomainJson + extra))),
+            "");
 }
 
 TEST_F(BladeFiles, CovarianceIsOrderedByName) {
   const std::string covariance =
       R"(,"covariance":{"parameters":["b","other","a_mm"],"matrix":[[4,0,2],[0,1,0],[2,0,9]]})";
   const BladeFile blade =
-      ReadBladeFile(Write(Record(kHead + "," + kTapered + "," + kDomain + covariance)));
+      ReadBladeFile(Write(Record(kHead + "," + kTapered + "," + kDomainJson + covariance)));
   ASSERT_EQ(blade.covariance.size(), 9u);
   EXPECT_EQ(blade.covariance[0], 9);
   EXPECT_EQ(blade.covariance[1], 2);
@@ -116,7 +109,7 @@ TEST_F(BladeFiles, StandardErrorsWithoutCovarianceAreKept) {
 }
 
 TEST_F(BladeFiles, ARefusalSaysThatThereIsNoCurve) {
-  const std::string complaint = Complaint(Write(
+  const std::string complaint = BladeFileComplaint(Write(
       R"({"format":"bladecurve/1","status":"refused","reason":"no_scale","detail":"no marker"})"));
   EXPECT_NE(complaint.find("no_scale: no marker"), std::string::npos) << complaint;
 }
@@ -126,9 +119,9 @@ struct Malformed {
 };
 
 TEST_F(BladeFiles, MalformedOnesAreRefusedOnOneLineByFileAndKey) {
-  const std::string tail = "," + kTapered + "," + kDomain;
+  const std::string tail = "," + kTapered + "," + kDomainJson;
   const auto curve = [](const std::string& members) {
-    return Record(kHead + R"(,"curve":{)" + members + "}," + kDomain);
+    return Record(kHead + R"(,"curve":{)" + members + "}," + kDomainJson);
   };
   const std::string spline = R"("family":"rigid-spline","degree":1,"knots_mm":[0,0,9,9])";
   const std::vector<Malformed> cases = {
@@ -138,7 +131,7 @@ TEST_F(BladeFiles, MalformedOnesAreRefusedOnOneLineByFileAndKey) {
       {"x,y\n1,2\n", "JSON"},
       {"[1,2]", "object"},
       {"null", "object"},
-      {Record(kHead + "," + kDomain), "curve"},
+      {Record(kHead + "," + kDomainJson), "curve"},
       {Record(kHead + "," + kTapered), "domain"},
       {Record(R"("name":"x")" + tail), "format"},
       {Record(R"("format":"bladecurve/1")" + tail), "name"},
@@ -150,7 +143,7 @@ TEST_F(BladeFiles, MalformedOnesAreRefusedOnOneLineByFileAndKey) {
       {Record(kHead + tail + R"(,"covariance":[1])"), "covariance"},
       {Record(kHead + tail + R"(,"covariance":{"parameters":["b"],"matrix":[[1,2]]})"), "matrix"},
       {Record(kHead + tail + R"(,"fit":{"rms_mm":"x"})"), "fit.rms_mm"},
-      {Record(kHead + R"(,"curve":"line",)" + kDomain), "curve"},
+      {Record(kHead + R"(,"curve":"line",)" + kDomainJson), "curve"},
       {curve(R"("family":"circle")"), "curve.family"},
       {curve(R"("a_mm":1,"b":2)"), "curve.family"},
       {curve(R"("family":"tapered-rectangle","b":2)"), "curve.a_mm"},
@@ -171,7 +164,7 @@ TEST_F(BladeFiles, MalformedOnesAreRefusedOnOneLineByFileAndKey) {
   };
   for (const Malformed& bad : cases) {
     const fs::path path = Write(bad.text);
-    const std::string complaint = Complaint(path);
+    const std::string complaint = BladeFileComplaint(path);
     EXPECT_EQ(complaint.find(path.string() + ": "), 0u) << bad.text << " -> " << complaint;
     EXPECT_NE(complaint.find(bad.word), std::string::npos) << bad.text << " -> " << complaint;
     EXPECT_NE(complaint.find_first_of(";"), std::string::npos) << "no remedy: " << complaint;
@@ -180,17 +173,17 @@ TEST_F(BladeFiles, MalformedOnesAreRefusedOnOneLineByFileAndKey) {
 }
 
 TEST_F(BladeFiles, MissingFilesAndFoldersAreNamed) {
-  EXPECT_NE(Complaint(folder() / "none.json").find("no such file"), std::string::npos);
-  EXPECT_NE(Complaint(folder()).find("folder"), std::string::npos);
+  EXPECT_NE(BladeFileComplaint(folder() / "none.json").find("no such file"), std::string::npos);
+  EXPECT_NE(BladeFileComplaint(folder()).find("folder"), std::string::npos);
 }
 
 TEST_F(BladeFiles, TruncationsAndFlippedBytesNeverCrash) {
-  const std::string text = Record(kHead + "," + kTapered + "," + kDomain);
+  const std::string text = Record(kHead + "," + kTapered + "," + kDomainJson);
   std::mt19937 random(2);
   for (int i = 0; i < 300; ++i) {
     std::string broken = text.substr(0, random() % (text.size() + 1));
     if (!broken.empty()) broken[random() % broken.size()] = static_cast<char>(random() % 256);
-    const std::string complaint = Complaint(Write(broken));
+    const std::string complaint = BladeFileComplaint(Write(broken));
     EXPECT_EQ(complaint.find('\n'), std::string::npos) << complaint;
   }
 }

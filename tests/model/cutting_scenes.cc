@@ -28,14 +28,6 @@ BladeCurve CurvedBlade() {
   return {spline, {8, 79, 0, 1.2}};
 }
 
-double Uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-}
-
-double LogUniform(std::mt19937& random, double low, double high) {
-  return std::exp(Uniform(random, std::log(low), std::log(high)));
-}
-
 BladeCurve RandomWavyBlade(std::mt19937& random) {
   const double dip_mm = Uniform(random, 0, 4);
   return {RigidSpline{3,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/torque.h"
+#include "tests/model/uniform.h"
 
 namespace bladecurve {
 
@@ -14,6 +15,7 @@ namespace bladecurve {
 // torque share.
 
 constexpr double kRad = 0.017453292519943295;  // per degree
+constexpr PlateSpan kCutSpan{45, 68};
 
 [[nodiscard]] BladeCurve SmallMetzenbaum();  // a = -11, b = 0.14
 [[nodiscard]] BladeCurve LargeMetzenbaum();  // a = -11, b = 0.12
@@ -21,12 +23,6 @@ constexpr double kRad = 0.017453292519943295;  // per degree
 
 // A cubic edge, bent outwards and back, in the blade's own frame.
 [[nodiscard]] BladeCurve CurvedBlade();
-
-// A number of [low, high), the same on every machine.
-[[nodiscard]] double Uniform(std::mt19937& random, double low, double high);
-
-// The same, spread evenly over the decades.
-[[nodiscard]] double LogUniform(std::mt19937& random, double low, double high);
 
 // An edge that rises, dips by chance and rises again: several x have the same phi.
 [[nodiscard]] BladeCurve RandomWavyBlade(std::mt19937& random);

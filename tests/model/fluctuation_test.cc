@@ -20,14 +20,14 @@ TorqueOptions With(const Fluctuation& fluctuation) {
   return options;
 }
 
-struct Scene {
+struct FluctuatingScene {
   BladeCurve blade;
   PlateSpan span;
   Material material;
   Fluctuation fluctuation;
 };
 
-Scene RandomScene(std::mt19937& random) {
+FluctuatingScene RandomFluctuatingScene(std::mt19937& random) {
   const bool curved = random() % 2 == 0;
   return {curved ? CurvedBlade() : SmallMetzenbaum(),
           curved ? PlateSpan{25, 60} : PlateSpan{45, 68},
@@ -37,13 +37,13 @@ Scene RandomScene(std::mt19937& random) {
            static_cast<std::uint32_t>(random())}};
 }
 
-std::string Name(const Scene& s) {
+std::string Name(const FluctuatingScene& s) {
   return s.material.name + ", rupture " + std::to_string(s.fluctuation.rupture_mm) +
          " mm, spread " + std::to_string(s.fluctuation.spread);
 }
 
 // What the header calls kappa, from its formula.
-double Kappa(const Scene& s, const TorqueSample& at, double theta_rad) {
+double Kappa(const FluctuatingScene& s, const TorqueSample& at, double theta_rad) {
   const CurveSample e = s.blade.Eval(at.x_c_mm, theta_rad);
   const double cos_alpha = std::cos(theta_rad / 2 - std::atan(e.phi_x));
   const double k = s.material.force_deflection.initial_stiffness_n_per_mm();
@@ -59,7 +59,7 @@ struct Stretch {
   bool all_cutting = true;
 };
 
-Stretch CutStretch(const Scene& s, double from_deg, double to_deg) {
+Stretch CutStretch(const FluctuatingScene& s, double from_deg, double to_deg) {
   TorqueModel mean(s.blade, s.material, s.span),
       rough(s.blade, s.material, s.span, With(s.fluctuation));
   static_cast<void>(Replay(mean, StraightMotion(35, from_deg, 100)));
@@ -94,7 +94,7 @@ TEST(Fluctuation, MeanTorqueOfAnyWindowIsTauCWithinItsBound) {
   std::mt19937 random(1);
   int tested = 0, rough = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const Scene s = RandomScene(random);
+    const FluctuatingScene s = RandomFluctuatingScene(random);
     const double from_deg = Uniform(random, 10, 18), to_deg = from_deg - Uniform(random, 0.2, 4);
     const Stretch stretch = CutStretch(s, from_deg, to_deg);
     if (!stretch.all_cutting) continue;
@@ -109,7 +109,7 @@ TEST(Fluctuation, MeanTorqueOfAnyWindowIsTauCWithinItsBound) {
 TEST(Fluctuation, RupturesFollowOneAnotherWithTheLengthsAskedFor) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 20; ++trial) {
-    const Fluctuation f = RandomScene(random).fluctuation;
+    const Fluctuation f = RandomFluctuatingScene(random).fluctuation;
     double sum_mm = 0, least_mm = HUGE_VAL, most_mm = 0;
     constexpr int kRuptures = 3000;
     Rupture rupture = RuptureAt(f, Uniform(random, -50, 50));
@@ -132,7 +132,7 @@ TEST(Fluctuation, RupturesFollowOneAnotherWithTheLengthsAskedFor) {
   }
 }
 
-std::vector<double> Torques(const Scene& s, const TorqueOptions& options) {
+std::vector<double> Torques(const FluctuatingScene& s, const TorqueOptions& options) {
   TorqueModel model(s.blade, s.material, s.span, options);
   std::vector<double> torques;
   for (const TorqueSample& sample : Replay(model, RandomMotion(7, 800, true)))
@@ -147,7 +147,7 @@ bool SameBits(const std::vector<double>& a, const std::vector<double>& b) {
 TEST(Fluctuation, ReplaysToTheSameBitsAndAnotherSeedToOthers) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 10; ++trial) {
-    Scene s = RandomScene(random);
+    FluctuatingScene s = RandomFluctuatingScene(random);
     s.fluctuation.spread = 0.5;
     const std::vector<double> first = Torques(s, With(s.fluctuation));
     EXPECT_TRUE(SameBits(first, Torques(s, With(s.fluctuation)))) << Name(s);
@@ -159,7 +159,7 @@ TEST(Fluctuation, ReplaysToTheSameBitsAndAnotherSeedToOthers) {
 TEST(Fluctuation, OfLengthZeroHasNoInfluenceWhateverItsOtherNumbers) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 10; ++trial) {
-    const Scene s = RandomScene(random);
+    const FluctuatingScene s = RandomFluctuatingScene(random);
     EXPECT_TRUE(SameBits(Torques(s, {}), Torques(s, With({0, 0.9, 77})))) << Name(s);
   }
 }
@@ -167,7 +167,7 @@ TEST(Fluctuation, OfLengthZeroHasNoInfluenceWhateverItsOtherNumbers) {
 TEST(Fluctuation, LeavesCrackPhaseAndLedgerAsTheyAre) {
   std::mt19937 random(5);
   for (int trial = 0; trial < 10; ++trial) {
-    const Scene s = RandomScene(random);
+    const FluctuatingScene s = RandomFluctuatingScene(random);
     TorqueModel mean(s.blade, s.material, s.span),
         rough(s.blade, s.material, s.span, With(s.fluctuation));
     for (const Pose& pose : RandomMotion(static_cast<std::uint32_t>(trial), 300, true)) {

@@ -15,12 +15,11 @@
 namespace bladecurve {
 namespace {
 
-constexpr PlateSpan kSpan{45, 68};
 constexpr double kRadius_mm = 98;
 
 std::string CutCsv(const Rig& rig = {}) {
   std::mt19937 random(1);
-  return LogOfCut(rig, SmallMetzenbaum(), PaperMaterials()[0], kSpan, random);
+  return LogOfCut(rig, SmallMetzenbaum(), PaperMaterials()[0], kCutSpan, random);
 }
 
 std::string EmptyCsv(const Rig& rig = {}) {
@@ -48,7 +47,7 @@ void IdentifyFrom(const std::string& cut_csv, const std::string& empty_csv) {
   static_cast<void>(IdentifyMaterial({{log(cut_csv, "cut.csv")},
                                       {log(empty_csv, "empty.csv")},
                                       {"small", SmallMetzenbaum()},
-                                      kSpan,
+                                      kCutSpan,
                                       0.1}));
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/export.h"
+#include "tests/installed_program.h"
 #include "tests/model/test_blades.h"
 
 namespace bladecurve {
@@ -23,10 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr double kThetaDeg = 17.5;
 constexpr double kX_mm = 61.25;
-
-bool IsInstalled(const std::string& program) {
-  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
-}
 
 fs::path Hosts() { return fs::path(BLADECURVE_SOURCE_DIR) / "samples" / "hosts"; }
 

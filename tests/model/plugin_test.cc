@@ -15,6 +15,8 @@
 
 #include "model/blade_plugin.h"
 #include "model/export.h"
+#include "tests/installed_program.h"
+#include "tests/model/blade_file_complaint.h"
 #include "tests/model/test_blades.h"
 
 namespace bladecurve {
@@ -32,10 +34,6 @@ fs::path Scratch(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / ("plugin_test." + test);
   fs::create_directories(folder);
   return folder / name;
-}
-
-bool IsInstalled(const std::string& program) {
-  return std::system(("command -v " + program + " > /dev/null 2>&1").c_str()) == 0;
 }
 
 void WriteText(const fs::path& path, const std::string& text) {
@@ -233,15 +231,6 @@ TEST_F(BuiltPlugin, EvalNIsEvalManyTimes) {
   }
 }
 
-std::string Complaint(const fs::path& path) {
-  try {
-    (void)ReadBladeFile(path);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 std::string Replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.rfind(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -251,7 +240,7 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
 TEST_F(BuiltPlugin, ThatIsBrokenIsRefusedByName) {
   const std::string good = PluginSource(TaperedBlade());
   const auto complaint = [&](const std::string& from, const std::string& to) {
-    return Complaint(Build(Replaced(good, from, to)));
+    return BladeFileComplaint(Build(Replaced(good, from, to)));
   };
   EXPECT_NE(complaint("-11.0, /* a */", "-12.0, /* a */").find("values"), std::string::npos);
   EXPECT_NE(complaint("  BLADECURVE_PLUGIN_VERSION,", "  0u,").find("version 0"),
@@ -261,17 +250,17 @@ TEST_F(BuiltPlugin, ThatIsBrokenIsRefusedByName) {
             std::string::npos);
   EXPECT_NE(complaint("100.0, /* x_max_mm */", "10.0, /* x_max_mm */").find("x_mm"),
             std::string::npos);
-  EXPECT_EQ(Complaint(Build(good)), "");
+  EXPECT_EQ(BladeFileComplaint(Build(good)), "");
 }
 
 TEST(Plugin, ForeignAndBrokenLibrariesAreRefusedByName) {
   WriteText(Scratch("no.so"),
             std::string("\x7f"
                         "ELF and then nothing"));
-  EXPECT_NE(Complaint(Scratch("no.so")).find("cannot be loaded"), std::string::npos);
+  EXPECT_NE(BladeFileComplaint(Scratch("no.so")).find("cannot be loaded"), std::string::npos);
   if (!IsInstalled("cc")) GTEST_SKIP() << "no C compiler";
   CompilePlugin("int other(void);\nint other(void) { return 1; }\n", Scratch("other.so"));
-  EXPECT_NE(Complaint(Scratch("other.so")).find("bladecurve_entry"), std::string::npos);
+  EXPECT_NE(BladeFileComplaint(Scratch("other.so")).find("bladecurve_entry"), std::string::npos);
 }
 
 // Sets CC for one test and puts it back.

@@ -49,10 +49,6 @@ long double BasisDerivative(
 
 }  // namespace
 
-double Uniform(std::mt19937& random, double low, double high) {
-  return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-}
-
 RigidSpline RandomSpline(std::mt19937& random, int degree, int num_spans, double waviness_mm) {
   RigidSpline spline;
   spline.degree = degree;

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "model/blade_curve.h"
+#include "tests/model/uniform.h"
 
 namespace bladecurve {
-
-// Uniform in [low, high), the same numbers with every standard library.
-double Uniform(std::mt19937& random, double low, double high);
 
 // A spline from u = 10 to 110 mm of the given degree and number of spans, with knots anywhere and
 // coefficients on a slope of -0.05 give or take `waviness_mm`.

@@ -14,7 +14,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr PlateSpan kSpan{45, 68};
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
 // Whether the edge has no other contact at this level between where the crack was and where it is.
@@ -55,7 +54,7 @@ TEST(TorqueModelExtremes, ABladeThatCannotCutKeepsItsLastValidTorqueAndIsFlagged
     const BladeCurve tapered(TaperedRectangle{Uniform(random, -6, 1), b, 0.5}, {0, 1e6, 0, 1.2});
     const BladeCurve wavy = RandomWavyBlade(random);
     const Material material = PaperMaterials()[random() % 4];
-    flagged += CountSaturated(TorqueModel(tapered, material, kSpan), "b = " + std::to_string(b));
+    flagged += CountSaturated(TorqueModel(tapered, material, kCutSpan), "b = " + std::to_string(b));
     flagged +=
         CountSaturated(TorqueModel(wavy, material, {25, 75}), "trial " + std::to_string(trial));
   }
@@ -68,7 +67,7 @@ TEST(TorqueModelExtremes, AnyAngleGivesAFiniteTorqueAndAFlagOutsideTheDomain) {
       0, -1e-9, -0.3, -1, -3.2, 1.2, 3.14159265, 3.15, 7, 1e3, -1e6, 1e12, -1e300};
   for (int trial = 0; trial < 300; ++trial) {
     const BladeCurve blade = trial % 2 == 0 ? SmallMetzenbaum() : CurvedBlade();
-    TorqueModel model(blade, PaperMaterials()[static_cast<std::size_t>(trial % 4)], kSpan);
+    TorqueModel model(blade, PaperMaterials()[static_cast<std::size_t>(trial % 4)], kCutSpan);
     for (int i = 0; i < 20; ++i) {
       const double theta =
           random() % 2 == 0 ? Uniform(random, -0.5, 1.5) : angles[random() % std::size(angles)];
@@ -158,8 +157,10 @@ TEST(TorqueModelExtremes, EncoderNoiseAloneCutsNothing) {
   const double count_rad = 0.01 * kRad;
   for (int trial = 0; trial < 100; ++trial) {
     const DeltaPolicy policy = trial % 2 == 0 ? DeltaPolicy::kConstant : DeltaPolicy::kCriterion;
-    TorqueModel model(
-        SmallMetzenbaum(), PaperMaterials()[static_cast<std::size_t>(trial % 4)], kSpan, {policy});
+    TorqueModel model(SmallMetzenbaum(),
+                      PaperMaterials()[static_cast<std::size_t>(trial % 4)],
+                      kCutSpan,
+                      {policy});
     const std::vector<Pose> motion = RandomMotion(static_cast<std::uint32_t>(trial), 60, true);
     static_cast<void>(Replay(model, motion));
     const Pose rest = motion.back();

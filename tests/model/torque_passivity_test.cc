@@ -76,14 +76,14 @@ class Meter {
 constexpr double kOpen_rad = 68 * kRad;  // touches none of these plates
 constexpr int kSteps = 16;               // of a stretch
 
-struct Scene {
+struct PassiveScene {
   BladeCurve blade;
   Material material;
   PlateSpan span;
   TorqueOptions options;
 };
 
-Scene RandomScene(std::mt19937& random, bool curved) {
+PassiveScene RandomPassiveScene(std::mt19937& random, bool curved) {
   const BladeCurve paper = random() % 2 == 0 ? SmallMetzenbaum() : LargeMetzenbaum();
   return {curved ? CurvedBlade() : paper,
           PaperMaterials()[random() % 4],
@@ -91,7 +91,7 @@ Scene RandomScene(std::mt19937& random, bool curved) {
           {random() % 2 == 0 ? DeltaPolicy::kConstant : DeltaPolicy::kCriterion}};
 }
 
-Meter MeterOf(const Scene& scene) {
+Meter MeterOf(const PassiveScene& scene) {
   return Meter(TorqueModel(scene.blade, scene.material, scene.span, scene.options));
 }
 
@@ -111,7 +111,7 @@ TEST(TorqueModelPassivity, BladesAboutAPivotAtRestNeverGiveMoreThanTheyTook) {
   int cut = 0;
   for (int i = 0; i < kLoops; ++i) {
     const bool curved = i % 4 == 0;
-    Meter meter = MeterOf(RandomScene(random, curved));
+    Meter meter = MeterOf(RandomPassiveScene(random, curved));
     const double pivot_mm = Uniform(random, -5, 15);
     meter.MoveTo({kOpen_rad, pivot_mm}, 1);
     const std::vector<double> loop_rad = AngleLoop(random);
@@ -137,7 +137,7 @@ TEST(TorqueModelPassivity, APivotThatMovesAtOneAngleNeverGivesMoreThanItTook) {
   double least_nmm = 0;
   int cut = 0;
   for (int i = 0; i < kLoops; ++i) {
-    Meter meter = MeterOf(RandomScene(random, i % 2 == 0));
+    Meter meter = MeterOf(RandomPassiveScene(random, i % 2 == 0));
     const double theta_rad = Uniform(random, 5, 25) * kRad;
     meter.MoveTo({theta_rad, -100}, 1);  // withdrawn from the plate
     const double crack_mm = meter.crack_mm();

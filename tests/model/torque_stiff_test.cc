@@ -14,10 +14,9 @@
 namespace bladecurve {
 namespace {
 
-constexpr PlateSpan kSpan{45, 68};
 constexpr double kSame = 1e-9;  // nothing is integrated in time: only rounding may differ
 
-struct Scene {
+struct StiffScene {
   BladeCurve blade;
   Material material;
   PlateSpan span;
@@ -26,7 +25,7 @@ struct Scene {
 };
 
 // J_c, h and k over twelve decades each; h no thicker than scissors open, but in every third scene.
-Scene RandomScene(std::mt19937& random, int trial) {
+StiffScene RandomStiffScene(std::mt19937& random, int trial) {
   const bool curved = trial % 4 == 0;
   const double most = trial % 3 == 0 ? 1e6 : 10;
   const Material material{"any",
@@ -35,21 +34,21 @@ Scene RandomScene(std::mt19937& random, int trial) {
                           ForceDeflection(5 * LogUniform(random, 1e-6, 1e6))};
   return {curved ? CurvedBlade() : SmallMetzenbaum(),
           material,
-          curved ? PlateSpan{25, 60} : kSpan,
+          curved ? PlateSpan{25, 60} : kCutSpan,
           {trial % 2 == 0 ? DeltaPolicy::kConstant : DeltaPolicy::kCriterion},
           "trial " + std::to_string(trial)};
 }
 
 // By the criterion the crack may rest again, while the blades close, in a plate so thick that they
 // never come to lie beside it: tau_c then grows faster than the plate's resistance.
-bool MayRest(const Scene& scene) {
+bool MayRest(const StiffScene& scene) {
   constexpr double kThick_mm = 5;
   return scene.options.delta_policy == DeltaPolicy::kCriterion &&
          scene.material.thickness_mm > kThick_mm;
 }
 
 // Closes in so many steps; the phases must come in order.
-TorqueSample CloseInOrder(const Scene& scene, double from_deg, double to_deg, int steps) {
+TorqueSample CloseInOrder(const StiffScene& scene, double from_deg, double to_deg, int steps) {
   TorqueModel model(scene.blade, scene.material, scene.span, scene.options);
   TorqueSample sample;
   Phase last = Phase::kNone;
@@ -74,7 +73,7 @@ TEST(TorqueModelExtremes, TwelveDecadesKeepThePhasesInOrderAndTheAnswerWhenSteps
   std::mt19937 random(3);
   int cut = 0;
   for (int trial = 0; trial < 3000; ++trial) {
-    const Scene scene = RandomScene(random, trial);
+    const StiffScene scene = RandomStiffScene(random, trial);
     const double to_deg = Uniform(random, 0, 10);
     const TorqueSample whole = CloseInOrder(scene, 30, to_deg, 50);
     ExpectSame(CloseInOrder(scene, 30, to_deg, 100), whole, scene.name);
@@ -86,7 +85,7 @@ TEST(TorqueModelExtremes, TwelveDecadesKeepThePhasesInOrderAndTheAnswerWhenSteps
 TEST(TorqueModelExtremes, AnyRateFromTenHertzToEightKilohertzGivesTheSameAnswer) {
   std::mt19937 random(4);
   for (int trial = 0; trial < 40; ++trial) {
-    const Scene scene = RandomScene(random, 12 * trial + trial % 3);  // both blades
+    const StiffScene scene = RandomStiffScene(random, 12 * trial + trial % 3);  // both blades
     const double to_deg = Uniform(random, 1, 20);
     const TorqueSample reference = CloseInOrder(scene, 28, to_deg, 1);
     // 9.3 s at 3 deg/s: 10 Hz and its doubles up to 10 kHz, in few scenes beyond 1 kHz.
@@ -113,7 +112,7 @@ TEST(TorqueModelExtremes, AStiffPlateMissesNoPhaseAndNeverShowsMoreThanTheCuttin
     const Material material = StiffMaterial(random);
     TorqueModel model(curved ? CurvedBlade() : SmallMetzenbaum(),
                       material,
-                      curved ? PlateSpan{25, 50} : kSpan,
+                      curved ? PlateSpan{25, 50} : kCutSpan,
                       options);
     const std::string scene = "trial " + std::to_string(trial) +
                               ", k = " + std::to_string(material.force_deflection.Eval(1).force_n);

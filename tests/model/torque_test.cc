@@ -15,7 +15,6 @@
 namespace bladecurve {
 namespace {
 
-constexpr PlateSpan kSpan{45, 68};
 constexpr double kClosedForm = 1e-9;  // relative, and rad: what the closed forms must be met within
 constexpr double kA_mm = -11;
 
@@ -29,15 +28,15 @@ double AngleThrough(double b, double x_mm, double y_mm) {
 // Elastic minus cutting torque at the plate's edge, from the formulas alone.
 double Excess(double b, const Material& m, double theta_rad) {
   const double slope = SlopeAt(b, theta_rad);
-  const double delta_mm = m.thickness_mm / 2 - kA_mm - kSpan.edge_mm * slope;
-  const double lever_mm = kSpan.edge_mm * std::cos(theta_rad / 2 - std::atan(slope));
+  const double delta_mm = m.thickness_mm / 2 - kA_mm - kCutSpan.edge_mm * slope;
+  const double lever_mm = kCutSpan.edge_mm * std::cos(theta_rad / 2 - std::atan(slope));
   const double secant = 1 / std::cos(theta_rad / 2);
   return lever_mm * m.force_deflection.initial_stiffness_n_per_mm() * delta_mm -
-         m.toughness_n_per_mm * m.thickness_mm * kSpan.edge_mm * secant * secant / (4 * slope);
+         m.toughness_n_per_mm * m.thickness_mm * kCutSpan.edge_mm * secant * secant / (4 * slope);
 }
 
 double StartAngle(double b, const Material& m) {
-  double high = AngleThrough(b, kSpan.edge_mm, m.thickness_mm / 2), low = 0;
+  double high = AngleThrough(b, kCutSpan.edge_mm, m.thickness_mm / 2), low = 0;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
     (Excess(b, m, middle) >= 0 ? low : high) = middle;
@@ -63,9 +62,9 @@ void Note(const TorqueModel& model, Events& events) {
 }
 
 void ExpectClosedForms(const BladeCurve& blade, double b, const Material& material, int steps) {
-  TorqueModel model(blade, material, kSpan);
+  TorqueModel model(blade, material, kCutSpan);
   const double start_rad = StartAngle(b, material);
-  const double y_c_mm = kA_mm + kSpan.edge_mm * SlopeAt(b, start_rad);  // h/2 - delta_c
+  const double y_c_mm = kA_mm + kCutSpan.edge_mm * SlopeAt(b, start_rad);  // h/2 - delta_c
   Events events;
   for (const Pose& pose : StraightMotion(35, 0, steps)) {
     const TorqueSample sample = model.Step(pose.theta_rad, 0, 0.01);
@@ -81,13 +80,14 @@ void ExpectClosedForms(const BladeCurve& blade, double b, const Material& materi
         << material.name << " at " << pose.theta_rad;
     EXPECT_EQ(sample.flags, 0u);
   }
-  EXPECT_NEAR(
-      events.contact_rad, AngleThrough(b, kSpan.edge_mm, material.thickness_mm / 2), kClosedForm);
+  EXPECT_NEAR(events.contact_rad,
+              AngleThrough(b, kCutSpan.edge_mm, material.thickness_mm / 2),
+              kClosedForm);
   EXPECT_NEAR(events.start_rad, start_rad, kClosedForm) << material.name;
-  EXPECT_NEAR(events.through_rad, AngleThrough(b, kSpan.end_mm, y_c_mm), kClosedForm)
+  EXPECT_NEAR(events.through_rad, AngleThrough(b, kCutSpan.end_mm, y_c_mm), kClosedForm)
       << material.name;
   const double work_nmm =
-      material.toughness_n_per_mm * material.thickness_mm * (kSpan.end_mm - kSpan.edge_mm);
+      material.toughness_n_per_mm * material.thickness_mm * (kCutSpan.end_mm - kCutSpan.edge_mm);
   EXPECT_NEAR(model.ledger().cut_work_nmm / work_nmm, 1, kClosedForm)
       << material.name << ", steps " << steps;
 }
@@ -105,7 +105,7 @@ TEST(TorqueModel, MeetsTheClosedFormsAlsoInFewLongSteps) {
 }
 
 TEST(TorqueModel, PassesItsPhasesInOrder) {
-  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kSpan);
+  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kCutSpan);
   std::vector<Phase> phases;
   for (const TorqueSample& sample : Replay(model, StraightMotion(30, 0, 3000))) {
     if (phases.empty() || phases.back() != sample.phase) phases.push_back(sample.phase);
@@ -116,7 +116,7 @@ TEST(TorqueModel, PassesItsPhasesInOrder) {
 }
 
 TEST(TorqueModel, OfConstantDeltaJumpsDownWhereTheBladesOpenAndCutsAgainFurtherOn) {
-  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kSpan);
+  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kCutSpan);
   Events events;
   double crack_mm = 0;
   for (const Pose& pose : StraightMotion(30, 10, 2000))
@@ -138,7 +138,7 @@ TEST(TorqueModel, OfConstantDeltaJumpsDownWhereTheBladesOpenAndCutsAgainFurtherO
 
 TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
   for (const Material& material : PaperMaterials()) {
-    TorqueModel model(SmallMetzenbaum(), material, kSpan, {DeltaPolicy::kCriterion});
+    TorqueModel model(SmallMetzenbaum(), material, kCutSpan, {DeltaPolicy::kCriterion});
     Events events;
     for (const Pose& pose : StraightMotion(30, 10, 2000))
       static_cast<void>(model.Step(pose.theta_rad, 0, 1e-3));
@@ -157,7 +157,7 @@ TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
 }
 
 TEST(TorqueModel, KeepsTheAverageTorqueOfCutting) {
-  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kSpan);
+  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], kCutSpan);
   double sum_nmm = 0, turn_rad = 0;
   TorqueSample last;
   constexpr int kSteps = 20000;
@@ -176,7 +176,7 @@ TEST(TorqueModel, KeepsTheAverageTorqueOfCutting) {
 }
 
 TEST(TorqueModel, SlicesWithConstantTorqueAndForceAtAConstantAngle) {
-  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[1], kSpan);
+  TorqueModel model(SmallMetzenbaum(), PaperMaterials()[1], kCutSpan);
   TorqueSample first;
   for (const Pose& pose : StraightMotion(30, 15, 1500)) first = model.Step(pose.theta_rad, 0, 1e-3);
   ASSERT_EQ(first.phase, Phase::kCutting);
@@ -200,7 +200,7 @@ TEST(TorqueModel, OfATabulatedStraightLineEqualsTheLinearOne) {
   Material tabulated = linear;
   tabulated.force_deflection =
       ForceDeflection({0, 0.1, 0.35, 1, 5}, {0, 0.1 * k, 0.35 * k, k, 5 * k});
-  TorqueModel a(SmallMetzenbaum(), linear, kSpan), b(SmallMetzenbaum(), tabulated, kSpan);
+  TorqueModel a(SmallMetzenbaum(), linear, kCutSpan), b(SmallMetzenbaum(), tabulated, kCutSpan);
   for (const Pose& pose : RandomMotion(5, 400, true)) {
     const TorqueSample sample_a = a.Step(pose.theta_rad, pose.pivot_mm, 1e-3);
     const TorqueSample sample_b = b.Step(pose.theta_rad, pose.pivot_mm, 1e-3);
@@ -217,7 +217,7 @@ bool SameBits(const TorqueSample& a, const TorqueSample& b) {
 }
 
 TEST(TorqueModel, ReplaysToTheSameBitsAfterAReset) {
-  TorqueModel model(CurvedBlade(), PaperMaterials()[3], kSpan);
+  TorqueModel model(CurvedBlade(), PaperMaterials()[3], kCutSpan);
   const std::vector<Pose> motion = RandomMotion(11, 500, true);
   const std::vector<TorqueSample> first = Replay(model, motion);
   model.Reset();
@@ -226,11 +226,11 @@ TEST(TorqueModel, ReplaysToTheSameBitsAfterAReset) {
 }
 
 TEST(TorqueModel, InstancesShareNothing) {
-  TorqueModel alone(SmallMetzenbaum(), PaperMaterials()[0], kSpan), other(alone);
+  TorqueModel alone(SmallMetzenbaum(), PaperMaterials()[0], kCutSpan), other(alone);
   const std::vector<Pose> motion = RandomMotion(3, 300, true),
                           distraction = RandomMotion(4, 300, false);
   const std::vector<TorqueSample> expected = Replay(alone, motion);
-  TorqueModel interleaved(SmallMetzenbaum(), PaperMaterials()[0], kSpan);
+  TorqueModel interleaved(SmallMetzenbaum(), PaperMaterials()[0], kCutSpan);
   for (std::size_t i = 0; i < motion.size(); ++i) {
     static_cast<void>(other.Step(distraction[i].theta_rad, distraction[i].pivot_mm, 1e-3));
     EXPECT_TRUE(
@@ -242,11 +242,11 @@ TEST(TorqueModel, NamesWhatCannotBe) {
   const Material paper = PaperMaterials()[0];
   EXPECT_THROW(TorqueModel(SmallMetzenbaum(), paper, {68, 45}), std::invalid_argument);
   EXPECT_THROW(TorqueModel(SmallMetzenbaum(), paper, {45, std::nan("")}), std::invalid_argument);
-  EXPECT_THROW(TorqueModel(SmallMetzenbaum(), paper, kSpan, {DeltaPolicy::kConstant, 0.0}),
+  EXPECT_THROW(TorqueModel(SmallMetzenbaum(), paper, kCutSpan, {DeltaPolicy::kConstant, 0.0}),
                std::invalid_argument);
   Material without_toughness = paper;
   without_toughness.toughness_n_per_mm = 0;
-  EXPECT_THROW(TorqueModel(SmallMetzenbaum(), without_toughness, kSpan), std::invalid_argument);
+  EXPECT_THROW(TorqueModel(SmallMetzenbaum(), without_toughness, kCutSpan), std::invalid_argument);
 }
 
 }  // namespace

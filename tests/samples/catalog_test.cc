@@ -20,14 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kSamples = fs::path(BLADECURVE_SOURCE_DIR) / "samples/photos";
-
 // Two photographs of scissors, a text file named .jpg, and a note that is no picture.
 fs::path FolderOfPhotographs() {
   const fs::path folder = TestFolder();
   fs::create_directory(folder / "photos");
   for (const char* name : {"mayo.jpg", "metzenbaum_drape.jpg"}) {
-    fs::copy_file(kSamples / name, folder / "photos" / name);
+    fs::copy_file(SamplePhotos() / name, folder / "photos" / name);
   }
   WriteText(folder / "photos/broken.jpg", "this is no picture");
   WriteText(folder / "photos/notes.txt", "blade 3 reground");
@@ -75,7 +73,7 @@ TEST(Catalog, SecondRunDoesOnlyWhatIsMissing) {
   EXPECT_NE(WholeCatalog(folder, "out")
                 .standard_output.find("0 measured, 0 refused, 0 errors, 3 done before"),
             std::string::npos);
-  fs::copy_file(kSamples / "mayo_wide.jpg", folder / "photos/new.jpg");
+  fs::copy_file(SamplePhotos() / "mayo_wide.jpg", folder / "photos/new.jpg");
   EXPECT_NE(WholeCatalog(folder, "out").standard_output.find("3 done before"), std::string::npos);
   EXPECT_EQ(JsonLines(folder / "out/catalog.jsonl").size(), 4u);
 }
@@ -83,7 +81,7 @@ TEST(Catalog, SecondRunDoesOnlyWhatIsMissing) {
 TEST(Catalog, ChangedPhotographIsMeasuredAgain) {
   const fs::path folder = FolderOfPhotographs();
   WholeCatalog(folder, "out");
-  fs::copy_file(kSamples / "mayo_wide.jpg",
+  fs::copy_file(SamplePhotos() / "mayo_wide.jpg",
                 folder / "photos/broken.jpg",
                 fs::copy_options::overwrite_existing);
   WholeCatalog(folder, "out");
@@ -140,8 +138,8 @@ TEST(Catalog, StatusCountsWhatIsMissing) {
 TEST(Catalog, SubFolderIsOneInstrument) {
   const fs::path folder = TestFolder();
   fs::create_directories(folder / "photos/mayo 14");
-  fs::copy_file(kSamples / "mayo.jpg", folder / "photos/mayo 14/a.jpg");
-  fs::copy_file(kSamples / "mayo_wide.jpg", folder / "photos/mayo 14/b.jpg");
+  fs::copy_file(SamplePhotos() / "mayo.jpg", folder / "photos/mayo 14/a.jpg");
+  fs::copy_file(SamplePhotos() / "mayo_wide.jpg", folder / "photos/mayo 14/b.jpg");
   WholeCatalog(folder, "out");
   const std::vector<Json> rows = JsonLines(folder / "out/catalog.jsonl");
   ASSERT_EQ(rows.size(), 1u);

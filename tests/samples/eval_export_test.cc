@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/blade_file.h"
+#include "tests/installed_program.h"
 #include "tests/model/test_blades.h"
 #include "tests/samples/program_run.h"
 
@@ -39,7 +40,7 @@ class EvalAndExport : public testing::Test {
   }
 };
 
-std::vector<std::vector<double>> Rows(const std::string& csv) {
+std::vector<std::vector<double>> RowsOf(const std::string& csv) {
   std::istringstream lines(csv);
   std::string line;
   std::getline(lines, line);
@@ -54,12 +55,10 @@ std::vector<std::vector<double>> Rows(const std::string& csv) {
   return rows;
 }
 
-bool HasCompiler() { return std::system("command -v cc > /dev/null 2>&1") == 0; }
-
 TEST_F(EvalAndExport, EvalPrintsTheCurveExactly) {
   const ProgramRun answer = Run("eval blade.blade.json --theta-deg 20 --x-mm 10:110:2.5");
   ASSERT_EQ(answer.exit_code, 0) << answer.standard_error;
-  const auto rows = Rows(answer.standard_output);
+  const auto rows = RowsOf(answer.standard_output);
   ASSERT_EQ(rows.size(), 41u);
   const double theta_rad = 20 * (std::acos(-1.0) / 180);
   for (const auto& row : rows) {
@@ -74,7 +73,7 @@ TEST_F(EvalAndExport, EvalPrintsTheCurveExactly) {
 TEST_F(EvalAndExport, EvalEndsAtBWhereStepsLeadThere) {
   const auto last = [this](const std::string& steps) {
     const auto rows =
-        Rows(Run("eval blade.blade.json --theta-deg 5 --x-mm " + steps).standard_output);
+        RowsOf(Run("eval blade.blade.json --theta-deg 5 --x-mm " + steps).standard_output);
     return rows.empty() ? std::nan("") : rows.back()[0];
   };
   EXPECT_EQ(last("20:21:0.1"), 21);
@@ -86,7 +85,7 @@ TEST_F(EvalAndExport, EvalEndsAtBWhereStepsLeadThere) {
 }
 
 TEST_F(EvalAndExport, EvalOfAPluginIsEvalOfItsBlade) {
-  if (!HasCompiler()) GTEST_SKIP() << "no C compiler";
+  if (!IsInstalled("cc")) GTEST_SKIP() << "no C compiler";
   ASSERT_EQ(Run("export blade.blade.json --as so -o blade.so").exit_code, 0);
   const std::string arguments = " --theta-deg 60 --x-mm 0:120:1";  // beyond both domains as well
   EXPECT_EQ(Run("eval blade.so" + arguments).standard_output,
@@ -94,7 +93,7 @@ TEST_F(EvalAndExport, EvalOfAPluginIsEvalOfItsBlade) {
 }
 
 TEST_F(EvalAndExport, ExportGoesRoundWithoutLoss) {
-  if (!HasCompiler()) GTEST_SKIP() << "no C compiler";
+  if (!IsInstalled("cc")) GTEST_SKIP() << "no C compiler";
   ASSERT_EQ(Run("export blade.blade.json --as so").exit_code, 0);
   ASSERT_EQ(Run("export blade.so --as json -o back.blade.json").exit_code, 0);
   EXPECT_EQ(ReadText(folder_ / "back.blade.json"), ReadText(folder_ / "blade.blade.json"));
@@ -110,14 +109,14 @@ TEST_F(EvalAndExport, ExportNamesItsFilesAfterTheBlade) {
   EXPECT_NE(onto_itself.standard_error.find("-o"), std::string::npos) << onto_itself.standard_error;
 }
 
-struct WrongUse {
+struct WrongEvalOrExport {
   std::string arguments;
   int exit_code;
   std::string word;
 };
 
 TEST_F(EvalAndExport, WrongUseIsSaidOnOneLine) {
-  const std::vector<WrongUse> cases = {
+  const std::vector<WrongEvalOrExport> cases = {
       {"eval blade.blade.json --x-mm 1:2:1", 2, "--theta-deg"},
       {"eval blade.blade.json --theta-deg 5", 2, "--x-mm"},
       {"eval --theta-deg 5 --x-mm 1:2:1", 2, "BLADE"},
@@ -136,7 +135,7 @@ TEST_F(EvalAndExport, WrongUseIsSaidOnOneLine) {
       {"export blade.blade.json --as fmu -o blade.fmu", 1, "not available"},
       {"export blade.blade.json --as c -o no/such/blade.c", 1, "no/such"},
   };
-  for (const WrongUse& wrong : cases) {
+  for (const WrongEvalOrExport& wrong : cases) {
     const ProgramRun answer = Run(wrong.arguments);
     EXPECT_EQ(answer.exit_code, wrong.exit_code)
         << wrong.arguments << ": " << answer.standard_error;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/blade_file.h"
+#include "tests/samples/json_point.h"
 #include "tests/samples/picture_files.h"
 #include "tests/samples/program_run.h"
 #include "vision/photo/photo.h"
@@ -23,8 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using Eigen::Vector2d;
-
-const fs::path kSamples = fs::path(BLADECURVE_SOURCE_DIR) / "samples/photos";
 
 // Seen straight from above, so that one number is the scale of the whole picture.
 SceneSpec SceneFromAbove() {
@@ -55,10 +54,6 @@ Json MustFit(const fs::path& folder, std::vector<std::string> arguments) {
 Json MustFitFile(const fs::path& folder, const std::string& name, const std::string& bytes) {
   WriteText(folder / name, bytes);
   return MustFit(folder, {name, "--mm-per-px", MmPerPx()});
-}
-
-Vector2d PointOf(const Json& point) {
-  return {point.at(0).get<double>(), point.at(1).get<double>()};
 }
 
 // The same scissors in another file: other rounding and compression are other noise, so the poses
@@ -268,8 +263,8 @@ TEST(Fit, MarkersOfMirroredFilesAreRead) {
   const auto fit = [&](const std::string& file) {
     return MustFit(folder, {file, "--marker-mm", "25"});
   };
-  const Json upright = fit((kSamples / "mayo.jpg").string());
-  const Photo photo = Photo::Load(kSamples / "mayo.jpg");
+  const Json upright = fit((SamplePhotos() / "mayo.jpg").string());
+  const Photo photo = Photo::Load(SamplePhotos() / "mayo.jpg");
   const cv::Mat shown = photo.DecodeColour(std::max(photo.grey().cols, photo.grey().rows));
   for (const int orientation : {2, 4, 5, 7}) {
     SCOPED_TRACE("EXIF orientation " + std::to_string(orientation));
@@ -317,8 +312,8 @@ TEST(Fit, PaletteAndCmykGiveTheSameScissors) {
 TEST(Fit, SameInputGivesTheSameBytesWhateverTheThreads) {
   const fs::path folder = TestFolder();
   const std::vector<std::string> arguments = {"fit",
-                                              (kSamples / "mayo.jpg").string(),
-                                              (kSamples / "mayo_wide.jpg").string(),
+                                              (SamplePhotos() / "mayo.jpg").string(),
+                                              (SamplePhotos() / "mayo_wide.jpg").string(),
                                               "--marker-mm",
                                               "25",
                                               "--json",
@@ -361,7 +356,7 @@ TEST(Fit, PlanFullRunsEveryStage) {
 
 TEST(Fit, DebugPicturesStandInAFolderForEachPhotograph) {
   const fs::path folder = TestFolder();
-  const std::string mayo = (kSamples / "mayo.jpg").string();
+  const std::string mayo = (SamplePhotos() / "mayo.jpg").string();
   const auto pictures = [&](const fs::path& in) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder / in))
@@ -379,8 +374,9 @@ TEST(Fit, DebugPicturesStandInAFolderForEachPhotograph) {
   WriteText(folder / "one" / "99_scene.png", "of an earlier run");
   MustFit(folder, {mayo, "--marker-mm", "25", "--debug", "one"});
   EXPECT_EQ(pictures("one"), of_one) << "what an earlier run left is taken for this one's";
-  MustFit(folder,
-          {mayo, (kSamples / "mayo_wide.jpg").string(), "--marker-mm", "25", "--debug", "two"});
+  MustFit(
+      folder,
+      {mayo, (SamplePhotos() / "mayo_wide.jpg").string(), "--marker-mm", "25", "--debug", "two"});
   EXPECT_EQ(pictures("two/1_mayo"), of_one);
   EXPECT_FALSE(pictures("two/2_mayo_wide").empty());
 }

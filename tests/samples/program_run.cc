@@ -42,6 +42,8 @@ ProgramRun RunBladecurve(const std::vector<std::string>& arguments,
   return run;
 }
 
+fs::path SamplePhotos() { return fs::path(BLADECURVE_SOURCE_DIR) / "samples" / "photos"; }
+
 fs::path TestFolder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   std::string name = std::string(test->test_suite_name()) + "." + test->name();

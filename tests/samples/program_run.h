@@ -19,6 +19,9 @@ struct ProgramRun {
                                        const std::filesystem::path& folder,
                                        const std::filesystem::path& standard_output = {});
 
+// The photographs that come with the source.
+[[nodiscard]] std::filesystem::path SamplePhotos();
+
 // An empty folder of the running test's own.
 [[nodiscard]] std::filesystem::path TestFolder();
 

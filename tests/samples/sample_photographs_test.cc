@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/samples/json_point.h"
 #include "tests/samples/program_run.h"
 
 // Every photograph in samples/photos against the truth that its renderer wrote beside it.
@@ -38,10 +39,6 @@ std::vector<std::string> SampleNames() {
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-Vector2d PointOf(const Json& point) {
-  return {point.at(0).get<double>(), point.at(1).get<double>()};
 }
 
 // Distance of a point from a polyline.

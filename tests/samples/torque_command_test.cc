@@ -15,6 +15,7 @@
 #include "model/blade_file.h"
 #include "model/number_table.h"
 #include "model/torque.h"
+#include "tests/installed_program.h"
 #include "tests/model/cutting_scenes.h"
 #include "tests/samples/program_run.h"
 
@@ -49,8 +50,6 @@ class TorqueCommand : public testing::Test {
 constexpr const char* kCut =
     "small.blade.json --material paper --close-deg 28:4 --x-edge-mm 45 --x-end-mm 68";
 
-bool HasCompiler() { return std::system("command -v cc > /dev/null 2>&1") == 0; }
-
 TEST_F(TorqueCommand, PrintsWhatTheModelSays) {
   const NumberTable csv = Csv(std::string(kCut) + " --radius-mm 98");
   TorqueModel model(SmallMetzenbaum(), PaperMaterials()[0], {45, 68});
@@ -65,7 +64,7 @@ TEST_F(TorqueCommand, PrintsWhatTheModelSays) {
 }
 
 TEST_F(TorqueCommand, OfAPluginIsTorqueOfItsBladeByteForByte) {
-  if (!HasCompiler()) GTEST_SKIP() << "no C compiler";
+  if (!IsInstalled("cc")) GTEST_SKIP() << "no C compiler";
   for (const std::string blade : {"small", "curved"}) {
     const ProgramRun exported = RunBladecurve(
         {"export", blade + ".blade.json", "--as", "so", "-o", blade + ".so"}, folder_);
@@ -180,7 +179,7 @@ TEST_F(TorqueCommand, PlotsAsSvg) {
     EXPECT_NE(svg.find(word), std::string::npos) << word;
 }
 
-struct WrongUse {
+struct WrongTorque {
   std::string arguments, word;
 };
 
@@ -191,7 +190,7 @@ TEST_F(TorqueCommand, WrongUseIsSaidOnOneLine) {
   WriteText(folder_ / "order.csv", "t_s,theta_deg\n0,20\n2,19\n1,18\n");
   WriteText(folder_ / "corrupt.so", std::string("\x7f") + "ELF nothing");
   const std::string cut = "small.blade.json --material paper ";
-  const std::vector<WrongUse> cases = {
+  const std::vector<WrongTorque> cases = {
       {"", "BLADE"},
       {"small.blade.json --close-deg 28:4", "--material"},
       {cut, "--close-deg"},
@@ -220,7 +219,7 @@ TEST_F(TorqueCommand, WrongUseIsSaidOnOneLine) {
       {"corrupt.blade.json --material paper --close-deg 28:4", "corrupt.blade.json"},
       {"corrupt.so --material paper --close-deg 28:4", "corrupt.so"},
   };
-  for (const WrongUse& wrong : cases) {
+  for (const WrongTorque& wrong : cases) {
     const ProgramRun run = Run(wrong.arguments);
     EXPECT_EQ(run.exit_code, 2) << wrong.arguments << ": " << run.standard_error;
     EXPECT_NE(run.standard_error.find(wrong.word), std::string::npos)

@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 constexpr int kCrotchX = 300, kRow = 200;  // px; the tips are on the right
 
 // Two blades that part at the crotch, and the joint behind it.
-cv::Mat Blades() {
+cv::Mat HeldBlades() {
   cv::Mat mask(400, 640, CV_8UC1, cv::Scalar(0));
   for (const int side : {-1, 1}) {
     const std::vector<cv::Point> blade{{240, kRow},
@@ -45,7 +45,7 @@ Vector2d CrotchOfShanks(const WithoutHandles& cut) {
 }
 
 TEST(CutOffHandles, CutsWhereTheJointRunsIntoAnotherThing) {
-  cv::Mat mask = Blades();
+  cv::Mat mask = HeldBlades();
   cv::rectangle(mask, {20, 40}, {245, 360}, 255, cv::FILLED);
   const std::vector<WithoutHandles> cut = CutIn(mask);
   ASSERT_EQ(cut.size(), 1);
@@ -58,7 +58,7 @@ TEST(CutOffHandles, CutsWhereTheJointRunsIntoAnotherThing) {
 
 // A ruler under the handles that goes on beside the blades: their gap is no inlet of the hull.
 TEST(CutOffHandles, FindsTheGapBesideAnotherThing) {
-  cv::Mat mask = Blades();
+  cv::Mat mask = HeldBlades();
   const std::vector<cv::Point> ruler{
       {240, 300}, {20, 300}, {20, 20}, {600, 20}, {600, 110}, {240, 110}};
   cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{ruler}, 255);
@@ -72,7 +72,7 @@ TEST(CutOffHandles, FindsTheGapBesideAnotherThing) {
 // Blades that open little cross far before their joint.
 TEST(CutOffHandles, FindsTheJointFarBehindTheGap) {
   constexpr int kCrossingX = 480;
-  cv::Mat mask = Blades();
+  cv::Mat mask = HeldBlades();
   cv::rectangle(mask, {20, 40}, {245, 360}, 255, cv::FILLED);
   const std::vector<cv::Point> crossed{
       {kCrotchX, kRow}, {kCrossingX, kRow - 43}, {kCrossingX, kRow + 43}};
@@ -84,26 +84,26 @@ TEST(CutOffHandles, FindsTheJointFarBehindTheGap) {
 }
 
 TEST(CutOffHandles, CutsWhereTheFrameDoes) {
-  const cv::Mat mask = Blades();
+  const cv::Mat mask = HeldBlades();
   const std::vector<WithoutHandles> cut = CutIn(mask.colRange(250, mask.cols).clone());
   ASSERT_EQ(cut.size(), 1);
   EXPECT_NEAR(CrotchOfShanks(cut[0]).x(), 8, 5);
 }
 
 // Their own shape says where the shanks are, or that these are the arms of tweezers.
-TEST(CutOffHandles, LeavesThingsThatEndBehindTheGap) { EXPECT_TRUE(CutIn(Blades()).empty()); }
+TEST(CutOffHandles, LeavesThingsThatEndBehindTheGap) { EXPECT_TRUE(CutIn(HeldBlades()).empty()); }
 
 // As a cut by colour leaves them, which lost the slender shanks.
 TEST(CutOffHandles, CutsRightBehindThePivotWhereThatIsKnown) {
   const Vector2d pivot(262, kRow);
   const std::vector<WithoutHandles> cut =
-      CutOffHandles(FindSilhouettes(Blades(), 1).front(), {}, pivot);
+      CutOffHandles(FindSilhouettes(HeldBlades(), 1).front(), {}, pivot);
   ASSERT_EQ(cut.size(), 1);
   EXPECT_LT(CrotchOfShanks(cut[0]).x(), pivot.x());
 }
 
 TEST(CutOffHandles, LeavesShanksThatAreSeen) {
-  cv::Mat mask = Blades();
+  cv::Mat mask = HeldBlades();
   for (const int side : {-1, 1})
     cv::line(mask, {242, kRow + side * 10}, {20, kRow + side * 120}, 255, 14);
   for (const WithoutHandles& cut : CutIn(mask))

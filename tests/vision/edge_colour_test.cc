@@ -21,24 +21,23 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::Gaussian;
+using testing::Smooth;
 
-constexpr int kSide = 200;
-constexpr double kNoise = 1.5;  // grey values, each channel by itself
+constexpr int kPatternSide = 200;
+constexpr double kChannelNoise = 1.5;  // grey values, each channel by itself
 
 const Vector2d kNormal(std::cos(0.4), std::sin(0.4));  // out of the blade
 constexpr double kOffset = 132;                        // of the blade's border along it
 
-double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
-
 // BGR whose light, 0 to 255 linear, depends on the distance from the blade's border, and on the
 // place.
 cv::Mat Patterned(Gaussian& random, const std::function<Vector3d(double, const Vector2d&)>& light) {
-  cv::Mat picture(kSide, kSide, CV_8UC3);
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  cv::Mat picture(kPatternSide, kPatternSide, CV_8UC3);
+  for (int y = 0; y < kPatternSide; ++y) {
+    for (int x = 0; x < kPatternSide; ++x) {
       const Vector3d at = light(kNormal.dot(Vector2d(x, y)) - kOffset, {x, y});
       for (int c = 0; c < 3; ++c)
-        picture.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(at[c] + kNoise * random());
+        picture.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(at[c] + kChannelNoise * random());
     }
   }
   return picture;
@@ -72,19 +71,20 @@ TEST(ColourView, ShowsASoftEdgeAmongTheBordersOfBlocks) {
   constexpr double kBlurPx = 3, kClosePx = 0.8, kBlock = 8, kUneven = 13;
   Gaussian random(2);
   ColourView view;
-  view.grey.create(kSide, kSide, CV_8UC1);
+  view.grey.create(kPatternSide, kPatternSide, CV_8UC1);
   view.tone = testing::GammaCurve(1);
   view.corner_px = {10, 20};
-  cv::Mat blocks(kSide / static_cast<int>(kBlock), kSide / static_cast<int>(kBlock), CV_64F);
+  cv::Mat blocks(
+      kPatternSide / static_cast<int>(kBlock), kPatternSide / static_cast<int>(kBlock), CV_64F);
   for (auto it = blocks.begin<double>(); it != blocks.end<double>(); ++it) *it = random();
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kPatternSide; ++y) {
+    for (int x = 0; x < kPatternSide; ++x) {
       const double from_edge = kNormal.dot(Vector2d(x, y) + view.corner_px) - kOffset;
       const double ground = Smooth(from_edge * 0.8 / kBlurPx);
       const double uneven =
           blocks.at<double>(y / static_cast<int>(kBlock), x / static_cast<int>(kBlock));
-      view.grey.at<uchar>(y, x) =
-          cv::saturate_cast<uchar>(90 + ground * (70 + kUneven * uneven) + kNoise * random());
+      view.grey.at<uchar>(y, x) = cv::saturate_cast<uchar>(90 + ground * (70 + kUneven * uneven) +
+                                                           kChannelNoise * random());
     }
   }
   EXPECT_THROW((void)LocateEdgeInView(view, GuessOff(2)), Refused);
@@ -186,7 +186,7 @@ double Stripes(const Vector2d& at) {
 // Of each 4 x 4 px by itself.
 double Grain(const Vector2d& at) {
   constexpr int kPx = 4;
-  const int cell = static_cast<int>(at.y()) / kPx * kSide + static_cast<int>(at.x()) / kPx;
+  const int cell = static_cast<int>(at.y()) / kPx * kPatternSide + static_cast<int>(at.x()) / kPx;
   return 0.25 * std::sin(37.0 * cell * cell);
 }
 

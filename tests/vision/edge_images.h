@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <random>
 
@@ -35,6 +36,11 @@ class Gaussian {
 // Unit vector at this angle from +x towards +y.
 [[nodiscard]] inline Eigen::Vector2d Direction(double angle_rad) {
   return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+// A step from 0 to 1, blurred by a Gaussian, d px beyond its middle.
+[[nodiscard]] inline double Smooth(double d, double blur_px = 0.8) {
+  return 0.5 * std::erfc(-d / blur_px / std::numbers::sqrt2);
 }
 
 // Share of background in each pixel, CV_64F, exact to 1e-8, by formulas that share nothing with the

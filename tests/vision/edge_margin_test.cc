@@ -14,10 +14,10 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kEdgeX = 100, kBladePx = 60;
-constexpr double kBlade = 120, kGround = 200, kDark = 50;  // grey values, linear
+using testing::Smooth;
 
-double Smooth(double d) { return 0.5 * std::erfc(-d / 0.8 / std::numbers::sqrt2); }
+constexpr double kEdgeX = 100, kBladePx = 60;
+constexpr double kBladeLight = 120, kGroundLight = 200, kDark = 50;  // grey values, linear
 
 // Light that depends on the distance from an upright edge, the ground on its right.
 cv::Mat PictureOf(const std::function<double(double)>& light) {
@@ -36,7 +36,7 @@ LocatedEdge UprightEdge() {
     LocatedEdgePoint point;
     point.point_px = point.trend_px = {kEdgeX, static_cast<double>(y)};
     point.normal = {1, 0};
-    point.contrast = (kGround - kBlade) / 255;
+    point.contrast = (kGroundLight - kBladeLight) / 255;
     edge.points.push_back(point);
   }
   return edge;
@@ -47,7 +47,8 @@ std::optional<Margin> MarginIn(const std::function<double(double)>& light) {
 }
 
 double WithMargin(double d, double width_px) {
-  return kBlade + Smooth(d + width_px) * (kDark - kBlade) + Smooth(d) * (kGround - kDark);
+  return kBladeLight + Smooth(d + width_px) * (kDark - kBladeLight) +
+         Smooth(d) * (kGroundLight - kDark);
 }
 
 TEST(FindMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
@@ -56,7 +57,7 @@ TEST(FindMargin, MeasuresWhatIsDarkerThanBladeAndGround) {
     ASSERT_TRUE(margin) << width_px;
     EXPECT_NEAR(margin->width_px, width_px, 1.5);
     EXPECT_NEAR(margin->light, kDark / 255, 0.02);
-    EXPECT_NEAR(margin->ground, kGround / 255, 0.02);
+    EXPECT_NEAR(margin->ground, kGroundLight / 255, 0.02);
   }
 }
 
@@ -64,7 +65,7 @@ TEST(FindMargin, MeasuresWhatIsBrighterThanABlackBlade) {
   constexpr double kBlack = 20;
   for (const double width_px : {6, 9, 20}) {
     const auto margin = MarginIn([&](double d) {
-      return kBlack + Smooth(d + width_px) * (kDark - kBlack) + Smooth(d) * (kGround - kDark);
+      return kBlack + Smooth(d + width_px) * (kDark - kBlack) + Smooth(d) * (kGroundLight - kDark);
     });
     ASSERT_TRUE(margin) << width_px;
     EXPECT_EQ(margin->than_blade, Shadow::kBrighter);
@@ -72,15 +73,17 @@ TEST(FindMargin, MeasuresWhatIsBrighterThanABlackBlade) {
     EXPECT_NEAR(margin->light, kDark / 255, 0.02);
   }
   EXPECT_FALSE(MarginIn([](double d) {
-    return kBlack + std::exp(d / 12) * (kDark - kBlack) + Smooth(d) * (kGround - kDark);
+    return kBlack + std::exp(d / 12) * (kDark - kBlack) + Smooth(d) * (kGroundLight - kDark);
   })) << "shading";
 }
 
 TEST(FindMargin, SeesNoneWhereThereIsNone) {
-  EXPECT_FALSE(MarginIn([](double d) { return kBlade + Smooth(d) * (kGround - kBlade); }));
+  EXPECT_FALSE(
+      MarginIn([](double d) { return kBladeLight + Smooth(d) * (kGroundLight - kBladeLight); }));
   EXPECT_FALSE(MarginIn([](double d) { return WithMargin(d, 0.8 * kBladePx); })) << "all is dark";
-  EXPECT_FALSE(MarginIn([](double d) { return kGround + Smooth(d) * (kBlade - kGround); }))
-      << "a bright blade";
+  EXPECT_FALSE(MarginIn([](double d) {
+    return kGroundLight + Smooth(d) * (kBladeLight - kGroundLight);
+  })) << "a bright blade";
 }
 
 std::optional<Margin> LineIn(const std::function<double(double)>& light) {
@@ -99,7 +102,8 @@ TEST(FindDarkLine, SeesNoneWhereThereIsNone) {
   EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 0); }));
   EXPECT_FALSE(LineIn([](double d) { return WithMargin(d, 6); })) << "a margin";
   EXPECT_FALSE(LineIn([](double d) {
-    return kDark + (1 - std::exp(d / 4)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
+    return kDark + (1 - std::exp(d / 4)) * (kBladeLight - kDark) +
+           Smooth(d) * (kGroundLight - kDark);
   })) << "shading";
 }
 
@@ -114,7 +118,8 @@ TEST(EndsSharply, TellsShadowsFromShading) {
   };
   EXPECT_TRUE(ends_sharply([](double d) { return WithMargin(d, kWidthPx); }));
   EXPECT_FALSE(ends_sharply([](double d) {
-    return kDark + (1 - std::exp(d / kWidthPx)) * (kBlade - kDark) + Smooth(d) * (kGround - kDark);
+    return kDark + (1 - std::exp(d / kWidthPx)) * (kBladeLight - kDark) +
+           Smooth(d) * (kGroundLight - kDark);
   })) << "shading";
 }
 
@@ -130,7 +135,7 @@ TEST(BandBeside, LiesBetweenAnEdgeAndALineWithin) {
 
 // Cut off at black, light says nothing of what is darker.
 TEST(MayLieAlong, TakesOneBlackForAnother) {
-  const cv::Mat grey = PictureOf([](double d) { return Smooth(d) * kGround; });
+  const cv::Mat grey = PictureOf([](double d) { return Smooth(d) * kGroundLight; });
   EXPECT_TRUE(MayLieAlong(grey, testing::GammaCurve(1), UprightEdge(), {20, 0}));
 }
 
@@ -147,7 +152,7 @@ TEST(MayLieAlong, SeesStripsAsDarkAndAThirdAsWideOnEitherSide) {
   EXPECT_FALSE(with_margin(3, 0)) << "contact with the ground darkens that much";
   EXPECT_TRUE(with_margin(8, 0));
   EXPECT_TRUE(with_margin(8, -8)) << "outside the edge";
-  EXPECT_FALSE(lies_along([](double d) { return 20 + Smooth(d) * (kGround - 20); }))
+  EXPECT_FALSE(lies_along([](double d) { return 20 + Smooth(d) * (kGroundLight - 20); }))
       << "a black blade is darker than the band";
 }
 
@@ -181,8 +186,8 @@ TEST(ShadowBesidePx, MeasuresWhatIsMuchDarkerThanBesideTheOtherEdgeAndEnds) {
   constexpr double kShadowPx = 12, kWidestPx = 30;
   const auto shadow_in = [](double width_px, double shade, double widest_px) {
     const cv::Mat grey = PictureOf([&](double d) {
-      return kBlade + Smooth(d) * (shade * kGround - kBlade) +
-             Smooth(d - width_px) * (1 - shade) * kGround;
+      return kBladeLight + Smooth(d) * (shade * kGroundLight - kBladeLight) +
+             Smooth(d - width_px) * (1 - shade) * kGroundLight;
     });
     LocatedEdge other = UprightEdge();
     for (LocatedEdgePoint& point : other.points) point.trend_px.x() += 50;
@@ -218,8 +223,9 @@ TEST(TrailPx, TellsADimBevelFromNoneAndFromAShadow) {
   const auto shadow = trail_in([](double d) { return WithDimBevel(d, 0) + Smooth(d - 5) * 40; });
   ASSERT_TRUE(shadow);
   EXPECT_NEAR(*shadow, *none, 0.6);
-  EXPECT_FALSE(trail_in([](double d) { return kBlade + Smooth(d) * (kGround - kBlade); }))
-      << "a bright ground";
+  EXPECT_FALSE(trail_in([](double d) {
+    return kBladeLight + Smooth(d) * (kGroundLight - kBladeLight);
+  })) << "a bright ground";
 }
 
 TEST(LocateEdgeBeyond, FindsTheBorderOfABevelThatMakesNoStepOfItsOwn) {

@@ -20,6 +20,7 @@
 #include "jpeg_images.h"
 #include "measured_blades.h"
 #include "process_folder.h"
+#include "tests/degree.h"
 #include "vision/edge_images.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
@@ -31,8 +32,6 @@ using testing::FarFrom;
 using testing::Measured;
 using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithShadow;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // Wide open in low sun from behind the rings: both blades throw their shadows into the gap.
 SceneSpec SceneWithShadowsInTheGap(double elevation_rad) {

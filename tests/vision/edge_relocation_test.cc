@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "measured_blades.h"
+#include "tests/degree.h"
 #include "vision/scissors/borrowed_edge.h"
 #include "vision/scissors/consistency.h"
 #include "vision/scissors/edge_doubt.h"
@@ -18,8 +19,6 @@ namespace bladecurve {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 using testing::FarFrom;
 using testing::Measured;

@@ -15,7 +15,7 @@ namespace {
 using testing::Gaussian;
 
 constexpr double kBlur = 0.8;
-constexpr double kNoise = 0.004;
+constexpr double kSliceNoise = 0.004;
 
 LevelVector WindowLevels() {
   LevelVector levels = LevelVector::Zero();
@@ -36,8 +36,8 @@ std::vector<PreparedPixel> Slice(double offset, double blade, double ground, Gau
     pixel.terms = LevelTerms(sample, StepSample{1, 0, 0}, across, TotalBlurVariance(kBlur));
     pixel.light = (levels[kBlade] + blade) * (1 - seen.step) +
                   (levels[kGround] + ground) * seen.step +
-                  (noise != nullptr ? kNoise * (*noise)() : 0.0);
-    pixel.weight = 1 / (kNoise * kNoise);
+                  (noise != nullptr ? kSliceNoise * (*noise)() : 0.0);
+    pixel.weight = 1 / (kSliceNoise * kSliceNoise);
     pixels.push_back(pixel);
   }
   return pixels;
@@ -82,13 +82,13 @@ TEST(TextureSigma, IsWhatNoiseDoesNotExplain) {
   Gaussian random(6);
   std::vector<SideRest> noisy, textured;
   for (int i = 0; i < kSlices; ++i) {
-    const double mean = kNoise / std::sqrt(kPixels) * random();
+    const double mean = kSliceNoise / std::sqrt(kPixels) * random();
     noisy.push_back({mean, kPixels});
     textured.push_back({mean + kTexture * random(), kPixels});
   }
-  EXPECT_LT(TextureSigma(noisy, kNoise), 0.2 * kNoise);
-  EXPECT_NEAR(TextureSigma(textured, kNoise), kTexture, 0.1 * kTexture);
-  EXPECT_EQ(TextureSigma({}, kNoise), 0);
+  EXPECT_LT(TextureSigma(noisy, kSliceNoise), 0.2 * kSliceNoise);
+  EXPECT_NEAR(TextureSigma(textured, kSliceNoise), kTexture, 0.1 * kTexture);
+  EXPECT_EQ(TextureSigma({}, kSliceNoise), 0);
 }
 
 // Slices of noise, held to zero as far as SolveSlice holds what says so little.

@@ -24,9 +24,10 @@ using Eigen::Vector2d;
 using testing::Direction;
 using testing::EdgeLook;
 using testing::Gaussian;
+using testing::Smooth;
 
 constexpr int kSide = 240;
-constexpr double kLength = 180;
+constexpr double kEdgeLength = 180;
 
 // A straight edge through the middle of a picture; background is where normal . p > offset.
 struct Line {
@@ -47,8 +48,8 @@ EdgeGuess GuessOf(const Line& line, double start_px, double end_px) {
   const Vector2d middle =
       line.normal * line.offset + along * along.dot(Vector2d(kSide / 2, kSide / 2));
   EdgeGuess guess;
-  guess.path_px = {middle - along * kLength / 2 + line.normal * start_px,
-                   middle + along * kLength / 2 + line.normal * end_px};
+  guess.path_px = {middle - along * kEdgeLength / 2 + line.normal * start_px,
+                   middle + along * kEdgeLength / 2 + line.normal * end_px};
   guess.blade_on_left = false;  // left of (-ny, nx) is (nx, ny): background
   return guess;
 }
@@ -89,7 +90,7 @@ TEST(LocateEdge, StraightEdgesOfAnyDirectionHaveNoBiasAndAnHonestSigma) {
     normalized += std::pow(offset.mean / offset.sigma, 2);
   }
   const double bound = testing::OffsetBound(
-      {kLength, look.blur_px, 120, std::hypot(2, std::sqrt(1.0 / 12)), 0.4, 5});
+      {kEdgeLength, look.blur_px, 120, std::hypot(2, std::sqrt(1.0 / 12)), 0.4, 5});
   const double rms = std::sqrt(squares / kTrials);
   // rms of 60 draws scatters by 9 %; bias by rms / sqrt(60).
   EXPECT_LT(rms, 1.25 * bound) << "bound " << bound;
@@ -111,11 +112,11 @@ TEST(LocateEdge, NoiseAQuarterOfTheStepLosesLittleOfTheInformation) {
     const Vector2d center(kSide / 2, kSide / 2);
     const Vector2d middle = center + (line.offset - line.normal.dot(center)) * line.normal;
     const double reference = testing::ReferenceError(
-        grey, {middle, line.normal, kLength, look.blur_px, look.blade, look.ground, reach});
+        grey, {middle, line.normal, kEdgeLength, look.blur_px, look.blade, look.ground, reach});
     lost.push_back(MeanOffset(edge, line).mean - reference);
   }
   const double bound = testing::OffsetBound(
-      {kLength, look.blur_px, 30, std::hypot(8, std::sqrt(1.0 / 12)), 0.4, reach});
+      {kEdgeLength, look.blur_px, 30, std::hypot(8, std::sqrt(1.0 / 12)), 0.4, reach});
   // Half of the draws lose less than a third of the bound; a line begun on noise loses more than
   // all.
   EXPECT_LT(MedianAbsolute(lost), bound / 3);
@@ -150,7 +151,7 @@ TEST(LocateEdge, NoiseDoesNotLeadASoftEdgeAstray) {
   Gaussian random(22);
   const EdgeLook look{2, 30, 60, 8, 1};
   const double bound = testing::OffsetBound(
-      {kLength, look.blur_px, 30, std::hypot(8, std::sqrt(1.0 / 12)), 0.4, 5 * look.blur_px});
+      {kEdgeLength, look.blur_px, 30, std::hypot(8, std::sqrt(1.0 / 12)), 0.4, 5 * look.blur_px});
   double squares = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     const Line line = RandomLine(random);
@@ -229,8 +230,6 @@ cv::Mat Banded(const Line& line, const Function& light) {
   }
   return picture;
 }
-
-double Smooth(double d, double blur) { return 0.5 * std::erfc(-d / blur / std::numbers::sqrt2); }
 
 // Blur and pixel box together, as a Gaussian of the same variance: good to 0.003 px, which is all
 // these ask.

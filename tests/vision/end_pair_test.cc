@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kLength = 300;  // px, pivot to tips
+constexpr double kBladePx = 300;  // px, pivot to tips
 constexpr double kHalfTheta = 0.3;
 constexpr double kExact = 1e-9;  // px: rounding
 
@@ -31,7 +31,7 @@ LocatedBlade BladeOnRay(bool on_left, double end_px, double sigma_px, bool arc_s
   const Vector2d along(std::cos(angle), std::sin(angle));
   LocatedBlade blade;
   blade.on_left = on_left;
-  for (double at = 60; at < kLength; at += 1) {
+  for (double at = 60; at < kBladePx; at += 1) {
     LocatedEdgePoint point;
     point.point_px = point.trend_px = PivotSeen().point_px + at * along;
     point.normal = {along.y(), -along.x()};
@@ -65,14 +65,14 @@ ScaleResult WithoutMarkers() {
 // Against the joint normal distribution of both lengths. The opening angle takes the sum of the
 // ends' errors, so it is their sum's uncertainty that must be right.
 TEST(AgreeOnEnds, WeighsTheTwoLengthsByTheirUncertainties) {
-  constexpr double kClear = 1, kVague = 10, kMade = 0.005 * kLength;  // px
-  Blades blades{BladeOnRay(true, kLength + 9, kVague, false),
-                BladeOnRay(false, kLength, kClear, true)};
+  constexpr double kClear = 1, kVague = 10, kMade = 0.005 * kBladePx;  // px
+  Blades blades{BladeOnRay(true, kBladePx + 9, kVague, false),
+                BladeOnRay(false, kBladePx, kClear, true)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
   Eigen::Matrix2d precision;
   const double like = 1 / (kMade * kMade);
   precision << 1 / (kVague * kVague) + like, -like, -like, 1 / (kClear * kClear) + like;
-  const Vector2d right((kLength + 9) / (kVague * kVague), kLength / (kClear * kClear));
+  const Vector2d right((kBladePx + 9) / (kVague * kVague), kBladePx / (kClear * kClear));
   const Eigen::Matrix2d covariance = precision.inverse();
   const Vector2d expected = covariance * right;
   constexpr double kClose = 0.05;  // px; the pivot's own uncertainty
@@ -83,20 +83,20 @@ TEST(AgreeOnEnds, WeighsTheTwoLengthsByTheirUncertainties) {
 }
 
 TEST(AgreeOnEnds, LeavesFreelyPhotographedBladesTheirLengths) {
-  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, 0.92 * kLength, 1, true)};
+  Blades blades{BladeOnRay(true, kBladePx, 1, true), BladeOnRay(false, 0.92 * kBladePx, 1, true)};
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
   EXPECT_EQ(blades.lower.end.along_sigma_px, 1);
   EXPECT_FALSE(blades.ends_contradict);
 }
 
 TEST(AgreeOnEnds, DoubtsTheEndOfABladeThatNoSlantMakesSoShort) {
   for (const bool arc_seen : {true, false}) {
-    const double length = (arc_seen ? 0.85 : 0.92) * kLength;
-    Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, length, 1, arc_seen)};
+    const double length = (arc_seen ? 0.85 : 0.92) * kBladePx;
+    Blades blades{BladeOnRay(true, kBladePx, 1, true), BladeOnRay(false, length, 1, arc_seen)};
     AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
     EXPECT_NEAR(LengthOf(blades.lower), length, kExact);
-    EXPECT_GE(blades.lower.end.along_sigma_px, 0.5 * (kLength - length));
+    EXPECT_GE(blades.lower.end.along_sigma_px, 0.5 * (kBladePx - length));
     EXPECT_EQ(blades.upper.end.along_sigma_px, 1);
     EXPECT_TRUE(blades.ends_contradict);
   }
@@ -104,11 +104,11 @@ TEST(AgreeOnEnds, DoubtsTheEndOfABladeThatNoSlantMakesSoShort) {
 
 TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
   for (const bool upper_seen : {false, true}) {
-    Blades blades{BladeOnRay(true, upper_seen ? kLength : kLength - 40, 1, upper_seen),
-                  BladeOnRay(false, upper_seen ? kLength - 40 : kLength, 1, !upper_seen)};
+    Blades blades{BladeOnRay(true, upper_seen ? kBladePx : kBladePx - 40, 1, upper_seen),
+                  BladeOnRay(false, upper_seen ? kBladePx - 40 : kBladePx, 1, !upper_seen)};
     AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-    EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact) << upper_seen;
-    EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact) << upper_seen;
+    EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact) << upper_seen;
+    EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact) << upper_seen;
     const LocatedBlade& moved = upper_seen ? blades.lower : blades.upper;
     EXPECT_EQ(moved.end.index, moved.edge.points.size()) << "all points lie before the end";
     EXPECT_GT(moved.end.along_sigma_px, 3) << "it is not seen there";
@@ -118,48 +118,49 @@ TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsSeen) {
 // An arc at the tip, and one beyond the other tip across which light steps the other way.
 TEST(AgreeOnEnds, PutsTheEndWhereTheOtherBladesArcIsNoShadows) {
   constexpr double kShadow = 15;  // px
-  Blades blades{BladeOnRay(true, kLength + kShadow, 1, true), BladeOnRay(false, kLength, 1, true)};
+  Blades blades{BladeOnRay(true, kBladePx + kShadow, 1, true),
+                BladeOnRay(false, kBladePx, 1, true)};
   blades.upper.end.evidence = 0;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
-  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
   EXPECT_GT(blades.upper.end.along_sigma_px, 1) << "it is not seen there";
   EXPECT_TRUE(blades.ends_contradict);
 }
 
 // A tip that fades into its ground ends early; nothing makes one end late as clearly.
 TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsMoreClearly) {
-  constexpr double kFaded = kLength - 35;  // px
+  constexpr double kFaded = kBladePx - 35;  // px
   for (const double evidence : {100.0, 1000.0}) {
-    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kLength, 1, true)};
+    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kBladePx, 1, true)};
     blades.upper.end.evidence = 100;
     blades.lower.end.evidence = evidence;
     AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-    EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
-    EXPECT_NEAR(LengthOf(blades.upper), evidence > 100 ? kLength : kFaded, kExact);
+    EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
+    EXPECT_NEAR(LengthOf(blades.upper), evidence > 100 ? kBladePx : kFaded, kExact);
     EXPECT_TRUE(blades.ends_contradict);
   }
 }
 
 // The arc of a tip that is cut off square is not quite where the step along the edge ends.
 TEST(AgreeOnEnds, PutsTheEndOfAFadingTipWhereTheOtherOneEndsNearAClearerArc) {
-  constexpr double kFaded = kLength - 35;  // px
+  constexpr double kFaded = kBladePx - 35;  // px
   for (const double evidence : {100.0, 1000.0}) {
-    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kLength, 7, false)};
-    blades.lower.rival_ends = {BladeOnRay(false, kLength - 6, 1, true).end};
+    Blades blades{BladeOnRay(true, kFaded, 1, true), BladeOnRay(false, kBladePx, 7, false)};
+    blades.lower.rival_ends = {BladeOnRay(false, kBladePx - 6, 1, true).end};
     blades.lower.rival_ends[0].evidence = evidence;
     AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-    const double length = evidence > 100 ? kLength : kFaded;
+    const double length = evidence > 100 ? kBladePx : kFaded;
     EXPECT_NEAR(LengthOf(blades.lower), length, kExact) << evidence;
     EXPECT_NEAR(LengthOf(blades.upper), length, kExact) << evidence;
   }
 }
 
 TEST(AgreeOnEnds, TakesTheLongerOfTwoBladesThatBothFade) {
-  Blades blades{BladeOnRay(true, kLength, 5, false), BladeOnRay(false, kLength - 25, 5, false)};
+  Blades blades{BladeOnRay(true, kBladePx, 5, false), BladeOnRay(false, kBladePx - 25, 5, false)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
-  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
   EXPECT_GE(blades.lower.end.along_sigma_px, 5);
 }
 
@@ -167,117 +168,117 @@ TEST(AgreeOnEnds, TakesTheLongerOfTwoBladesThatBothFade) {
 TEST(AgreeOnEnds, TakesThePairThatIsSeenBest) {
   constexpr double kShadow = 28;  // px
   const auto with_rival = [&](bool on_left, double evidence, double rival_evidence) {
-    LocatedBlade blade = BladeOnRay(on_left, kLength + kShadow, 1, true);
-    blade.rival_ends = {BladeOnRay(on_left, kLength, 1, true).end};
+    LocatedBlade blade = BladeOnRay(on_left, kBladePx + kShadow, 1, true);
+    blade.rival_ends = {BladeOnRay(on_left, kBladePx, 1, true).end};
     blade.end.evidence = evidence;
     blade.rival_ends[0].evidence = rival_evidence;
     return blade;
   };
   Blades clear{with_rival(true, 100, 300), with_rival(false, 100, 300)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &clear);
-  EXPECT_NEAR(LengthOf(clear.upper), kLength, kExact);
-  EXPECT_NEAR(LengthOf(clear.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(clear.upper), kBladePx, kExact);
+  EXPECT_NEAR(LengthOf(clear.lower), kBladePx, kExact);
   Blades faint{with_rival(true, 300, 100), with_rival(false, 300, 100)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &faint);
-  EXPECT_NEAR(LengthOf(faint.upper), kLength + kShadow, kExact);
+  EXPECT_NEAR(LengthOf(faint.upper), kBladePx + kShadow, kExact);
   Blades free{with_rival(true, 100, 300), with_rival(false, 100, 300)};
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &free);
-  EXPECT_NEAR(LengthOf(free.upper), kLength, kExact);
-  EXPECT_NEAR(LengthOf(free.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(free.upper), kBladePx, kExact);
+  EXPECT_NEAR(LengthOf(free.lower), kBladePx, kExact);
 }
 
 // Grain ends on arcs of few lines, on both blades at about the same length by chance; seen freely,
 // blades may differ by much.
 TEST(AgreeOnEnds, TakesNoPairOfUncertainArcsInAViewOfUnknownTilt) {
   const auto with_rival = [](bool on_left) {
-    LocatedBlade blade = BladeOnRay(on_left, kLength, 5, false);
-    blade.rival_ends = {BladeOnRay(on_left, kLength - (on_left ? 25 : 30), 1, true).end};
+    LocatedBlade blade = BladeOnRay(on_left, kBladePx, 5, false);
+    blade.rival_ends = {BladeOnRay(on_left, kBladePx - (on_left ? 25 : 30), 1, true).end};
     blade.rival_ends[0].certain = false;
     return blade;
   };
   Blades blades{with_rival(true), with_rival(false)};
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
-  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
 }
 
 // A line on one blade ends like a tip, clearer than it; the other blade has its end elsewhere.
 TEST(AgreeOnEnds, TakesNoRivalThatTheOtherBladeContradicts) {
-  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, kLength, 1, true)};
-  blades.upper.rival_ends = {BladeOnRay(true, kLength - 60, 1, true).end};
+  Blades blades{BladeOnRay(true, kBladePx, 1, true), BladeOnRay(false, kBladePx, 1, true)};
+  blades.upper.rival_ends = {BladeOnRay(true, kBladePx - 60, 1, true).end};
   blades.upper.end.evidence = blades.lower.end.evidence = 100;
   blades.upper.rival_ends[0].evidence = 1000;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
   EXPECT_FALSE(blades.ends_contradict);
 }
 
 // Nothing on the other blade confirms it.
 TEST(AgreeOnEnds, TakesNoRivalBesideAnEndWithoutArc) {
-  Blades blades{BladeOnRay(true, kLength, 20, false), BladeOnRay(false, kLength, 20, false)};
-  blades.upper.rival_ends = {BladeOnRay(true, kLength - 25, 1, true).end};
+  Blades blades{BladeOnRay(true, kBladePx, 20, false), BladeOnRay(false, kBladePx, 20, false)};
+  blades.upper.rival_ends = {BladeOnRay(true, kBladePx - 25, 1, true).end};
   blades.upper.rival_ends[0].evidence = 100;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx, kExact);
 }
 
 // The likely arc steps the other way than the edge does, as that of a shadow.
 TEST(AgreeOnEnds, LeavesAShadowsArcAlsoBesideAnEndWithoutArc) {
   constexpr double kShadow = 28;  // px
-  Blades blades{BladeOnRay(true, kLength, 20, false),
-                BladeOnRay(false, kLength + kShadow, 1, true)};
+  Blades blades{BladeOnRay(true, kBladePx, 20, false),
+                BladeOnRay(false, kBladePx + kShadow, 1, true)};
   blades.lower.end.evidence = 0;
-  blades.lower.rival_ends = {BladeOnRay(false, kLength, 1, true).end};
+  blades.lower.rival_ends = {BladeOnRay(false, kBladePx, 1, true).end};
   blades.lower.rival_ends[0].evidence = 100;
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
 }
 
 // Where nothing else is seen the end stays there, less surely.
 TEST(AgreeOnEnds, DoubtsAShadowsArc) {
-  constexpr double kLeastDoubt = 0.015 * kLength;  // px
-  Blades blades{BladeOnRay(true, kLength, 20, false), BladeOnRay(false, kLength, 1, true)};
+  constexpr double kLeastDoubt = 0.015 * kBladePx;  // px
+  Blades blades{BladeOnRay(true, kBladePx, 20, false), BladeOnRay(false, kBladePx, 1, true)};
   blades.lower.end.evidence = 0;
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &blades);
-  EXPECT_NEAR(LengthOf(blades.lower), kLength, kExact);
+  EXPECT_NEAR(LengthOf(blades.lower), kBladePx, kExact);
   EXPECT_GT(blades.lower.end.along_sigma_px, kLeastDoubt);
 }
 
 // A shadow's arc may lie anywhere within a few hundredths of the length.
 TEST(AgreeOnEnds, WeighsAShadowsArcThatTheOtherBladesEndContradicts) {
   constexpr double kBeyond = 24, kVague = 5;  // px
-  Blades blades{BladeOnRay(true, kLength + kBeyond, 1, true),
-                BladeOnRay(false, kLength, kVague, false)};
+  Blades blades{BladeOnRay(true, kBladePx + kBeyond, 1, true),
+                BladeOnRay(false, kBladePx, kVague, false)};
   blades.upper.end.evidence = 0;
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
   EXPECT_TRUE(blades.ends_contradict);
   for (const LocatedBlade* blade : {&blades.upper, &blades.lower}) {
-    EXPECT_GT(LengthOf(*blade), kLength);
-    EXPECT_LT(LengthOf(*blade), kLength + 0.75 * kBeyond);
+    EXPECT_GT(LengthOf(*blade), kBladePx);
+    EXPECT_LT(LengthOf(*blade), kBladePx + 0.75 * kBeyond);
     EXPECT_GT(blade->end.along_sigma_px, 0.7 * kVague);
   }
 }
 
 TEST(AgreeOnEnds, SaysNothingAboutAPivotGivenBeyondTheTips) {
-  Blades blades{BladeOnRay(true, kLength + 5, 10, false), BladeOnRay(false, kLength, 1, true)};
+  Blades blades{BladeOnRay(true, kBladePx + 5, 10, false), BladeOnRay(false, kBladePx, 1, true)};
   Pivot beyond = PivotSeen();
-  beyond.point_px.x() += 2 * kLength;
+  beyond.point_px.x() += 2 * kBladePx;
   AgreeOnEnds(WithMarkers(), beyond, &blades);
-  EXPECT_NEAR(LengthOf(blades.upper), kLength + 5, kExact);
+  EXPECT_NEAR(LengthOf(blades.upper), kBladePx + 5, kExact);
   EXPECT_EQ(blades.upper.end.along_sigma_px, 10);
 }
 
 TEST(AgreeOnEnds, DoubtsEndsThatContradictEachOther) {
   constexpr double kGap = 80;  // px
   const auto apart = [] {
-    return Blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, kLength - kGap, 1, true)};
+    return Blades{BladeOnRay(true, kBladePx, 1, true), BladeOnRay(false, kBladePx - kGap, 1, true)};
   };
   Blades level = apart(), slanted = apart();
   AgreeOnEnds(WithMarkers(), PivotSeen(), &level);
   AgreeOnEnds(WithoutMarkers(), PivotSeen(), &slanted);
   EXPECT_TRUE(level.ends_contradict);
   EXPECT_TRUE(slanted.ends_contradict);
-  EXPECT_NEAR(LengthOf(level.upper), kLength, kExact);
+  EXPECT_NEAR(LengthOf(level.upper), kBladePx, kExact);
   EXPECT_GT(level.upper.end.along_sigma_px, 0.4 * kGap);
   EXPECT_GT(level.lower.end.along_sigma_px, 0.4 * kGap);
 }
@@ -288,8 +289,8 @@ TEST(RefuseCutOffBlade, WhereTheShorterOneWouldRunOutOfThePicture) {
   for (const ScaleResult& scale : {WithMarkers(), WithoutMarkers()}) {
     for (const bool upper_short : {false, true}) {
       for (const bool seen : {false, true}) {
-        Blades blades{BladeOnRay(true, upper_short ? 0.7 * kLength : kLength, 1, !upper_short),
-                      BladeOnRay(false, upper_short ? kLength : 0.7 * kLength, 1, upper_short)};
+        Blades blades{BladeOnRay(true, upper_short ? 0.7 * kBladePx : kBladePx, 1, !upper_short),
+                      BladeOnRay(false, upper_short ? kBladePx : 0.7 * kBladePx, 1, upper_short)};
         (upper_short ? blades.upper : blades.lower).end.arc_seen = seen;
         AgreeOnEnds(scale, PivotSeen(), &blades);
         ASSERT_TRUE(blades.ends_contradict);
@@ -302,7 +303,7 @@ TEST(RefuseCutOffBlade, WhereTheShorterOneWouldRunOutOfThePicture) {
 
 TEST(RefuseCutOffBlade, LeavesBladesOfOneLength) {
   const cv::Size narrow(680, 700);
-  Blades blades{BladeOnRay(true, kLength, 1, true), BladeOnRay(false, 0.99 * kLength, 5, true)};
+  Blades blades{BladeOnRay(true, kBladePx, 1, true), BladeOnRay(false, 0.99 * kBladePx, 5, true)};
   AgreeOnEnds(WithMarkers(), PivotSeen(), &blades);
   EXPECT_NO_THROW(RefuseCutOffBlade(WithMarkers(), PivotSeen(), blades, narrow));
 }

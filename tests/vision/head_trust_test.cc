@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-const Vector2d kHead(200, 300);
+const Vector2d kTrustedHead(200, 300);
 
 // Blades that no slant of the view makes mirror each other about the head.
 EdgePair UnlikeEdges() {
   EdgePair edges;
   for (double ahead = 60; ahead <= 200; ahead += 1) {
-    edges.left_px.emplace_back(kHead + Vector2d(ahead, -0.3 * ahead));
-    edges.right_px.emplace_back(kHead + Vector2d(ahead, 0.3 * ahead - 15));
+    edges.left_px.emplace_back(kTrustedHead + Vector2d(ahead, -0.3 * ahead));
+    edges.right_px.emplace_back(kTrustedHead + Vector2d(ahead, 0.3 * ahead - 15));
   }
   return edges;
 }
@@ -28,14 +28,14 @@ EdgePair UnlikeEdges() {
 bool IsSure(bool slotted, double sigmas_off) {
   constexpr double kSigmaPx = 10;
   Screw screw{};
-  screw.center_px = kHead;
+  screw.center_px = kTrustedHead;
   screw.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
   screw.semi_major_px = screw.semi_minor_px = 30;
   screw.evidence = 0.5 * (kFaintHead + kUnmistakable);
   screw.third_support = 0.5;
   if (slotted) {
     screw.slot.emplace();
-    screw.slot->center_px = kHead;
+    screw.slot->center_px = kTrustedHead;
     screw.slot->covariance_px2 = screw.covariance_px2;
     screw.slot->ends_seen = true;
   }
@@ -43,7 +43,7 @@ bool IsSure(bool slotted, double sigmas_off) {
   scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
   Scene scene;
   scene.shank_width_px = 50;
-  const PlacePx by_geometry{kHead + Vector2d(sigmas_off * kSigmaPx, 0),
+  const PlacePx by_geometry{kTrustedHead + Vector2d(sigmas_off * kSigmaPx, 0),
                             kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity()};
   const EdgePair edges = UnlikeEdges();
   const HeadSearch known{cv::Mat(), scale, scene, edges, by_geometry, std::nullopt};

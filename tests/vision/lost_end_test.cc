@@ -30,7 +30,7 @@ void LoseEnd(bool upper, Measured* measured) {
   measured->Shift(&blade, [](double share) { return share < kSeen ? 0 : -kAsidePx; });
 }
 
-double LengthOf(const LocatedBlade& blade) {
+double UsedLength(const LocatedBlade& blade) {
   return (blade.used.back().point_px - blade.used.front().point_px).norm();
 }
 
@@ -38,11 +38,11 @@ TEST(FindLostEnds, FollowsAnEdgeOnAsTheOtherOneGoes) {
   constexpr double kClosePx = 0.2, kSame = 0.01;
   for (const bool upper : {true, false}) {
     Measured measured{SceneWithMarkers()};
-    const double length_px = LengthOf(measured.Blade(upper));
+    const double length_px = UsedLength(measured.Blade(upper));
     LoseEnd(upper, &measured);
-    ASSERT_LT(LengthOf(measured.Blade(upper)), 0.7 * length_px);
+    ASSERT_LT(UsedLength(measured.Blade(upper)), 0.7 * length_px);
     FindLostEnds(measured.View(), &measured.blades);
-    EXPECT_NEAR(LengthOf(measured.Blade(upper)), length_px, kSame * length_px) << upper;
+    EXPECT_NEAR(UsedLength(measured.Blade(upper)), length_px, kSame * length_px) << upper;
     EXPECT_LT(FarFrom(measured.TrueEdge(upper), measured.Blade(upper).used), kClosePx) << upper;
   }
 }

@@ -27,17 +27,20 @@ double Stored(double light) {
 
 // A blade in the upper half of a photograph, as its grey version shows it. Its edge lies a little
 // inclined about y = `edge_y_px`.
-constexpr int kSide = 120;
+constexpr int kBlockedSide = 120;
 cv::Mat GreyPhotograph(const Vector3d& blade,
                        const Vector3d& ground,
                        double edge_y_px,
                        double blur_px) {
   const Vector2d normal = testing::Direction(1.5);
-  const cv::Mat coverage = testing::HalfPlaneCoverage(
-      {kSide, kSide}, normal, normal.dot(Vector2d(kSide / 2.0, edge_y_px)), blur_px);
+  const cv::Mat coverage =
+      testing::HalfPlaneCoverage({kBlockedSide, kBlockedSide},
+                                 normal,
+                                 normal.dot(Vector2d(kBlockedSide / 2.0, edge_y_px)),
+                                 blur_px);
   cv::Mat bgr(coverage.size(), CV_8UC3), grey;
-  for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) {
+  for (int y = 0; y < kBlockedSide; ++y) {
+    for (int x = 0; x < kBlockedSide; ++x) {
       const Vector3d light = blade + coverage.at<double>(y, x) * (ground - blade);
       for (int c = 0; c < 3; ++c)
         bgr.at<cv::Vec3b>(y, x)[c] = cv::saturate_cast<uchar>(Stored(light[c]));
@@ -51,7 +54,7 @@ cv::Mat GreyPhotograph(const Vector3d& blade,
 double LocatedShift(const Vector3d& blade, const Vector3d& ground, double blur_px) {
   constexpr double kEdge = 60.3;
   const Vector2d normal = testing::Direction(1.5), along(normal.y(), -normal.x());
-  const Vector2d middle(kSide / 2.0, kEdge);
+  const Vector2d middle(kBlockedSide / 2.0, kEdge);
   const EdgeGuess guess{{middle - 45 * along, middle + 45 * along}, true};
   const LocatedEdge edge =
       LocateEdge(GreyPhotograph(blade, ground, kEdge, blur_px), SrgbToneCurve(), guess);

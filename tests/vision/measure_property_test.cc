@@ -332,7 +332,7 @@ SceneSpec SceneOf(const Look& look) {
   return spec;
 }
 
-class RenderedPhotograph : public testing::TestWithParam<Look> {
+class RenderedPhotograph : public ::testing::TestWithParam<Look> {
  protected:
   void SetUp() override {
     picture_ = RenderScene(SceneOf(GetParam())).bgr;
@@ -351,11 +351,11 @@ class RenderedPhotograph : public testing::TestWithParam<Look> {
 
 INSTANTIATE_TEST_SUITE_P(Looks,
                          RenderedPhotograph,
-                         testing::Values(Look{"paper"},
-                                         Look{"light_table", Backdrop::kLightTable},
-                                         Look{"drape", Backdrop::kDrape},
-                                         Look{"cloth", Backdrop::kCloth},
-                                         Look{"wood_in_the_sun", Backdrop::kWood, true}),
+                         ::testing::Values(Look{"paper"},
+                                           Look{"light_table", Backdrop::kLightTable},
+                                           Look{"drape", Backdrop::kDrape},
+                                           Look{"cloth", Backdrop::kCloth},
+                                           Look{"wood_in_the_sun", Backdrop::kWood, true}),
                          [](const auto& look) { return look.param.name; });
 
 TEST_P(RenderedPhotograph, TurnsWithThePicture) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/degree.h"
+
 namespace bladecurve {
 namespace {
 
@@ -15,7 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kLength = 300;  // px, pivot to tips
-constexpr double kDegree = std::numbers::pi / 180;
 const Vector2d kPivot(400, 350);
 
 // Straight edges whose ends open by theta about the pivot, towards +x; each, continued, passes the

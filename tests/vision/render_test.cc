@@ -11,6 +11,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/degree.h"
 #include "vision/photo/photo.h"
 #include "vision/render/render_camera.h"
 #include "vision/render/render_outline.h"
@@ -18,8 +19,6 @@
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 SceneSpec SmallScene() {
   SceneSpec scene;

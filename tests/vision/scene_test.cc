@@ -17,6 +17,7 @@
 
 #include "measured_blades.h"
 #include "process_folder.h"
+#include "tests/degree.h"
 #include "vision/measure.h"
 #include "vision/photo/photo.h"
 #include "vision/photo/png_writer.h"
@@ -41,8 +42,6 @@ namespace bladecurve {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 // The reason of a refusal, or "" if the picture is measured.
 std::string ReasonFor(const cv::Mat& picture, const SceneHints& hints = {}) {

@@ -11,7 +11,7 @@
 namespace bladecurve {
 namespace {
 
-constexpr double kHead = 0.2, kGround = 0.5;
+constexpr double kHeadLight = 0.2, kGroundLight = 0.5;
 
 // Light of a place, px from the head's centre.
 using Light = std::function<double(const Eigen::Vector2d&)>;
@@ -31,7 +31,7 @@ HeadOnGround DrawHead(double radius, const Light& uneven) {
       const Eigen::Vector2d p = Eigen::Vector2d(x, y) - head.rim.center;
       const double seen = 0.5 * std::erfc((radius - p.norm()) / std::numbers::sqrt2);
       head.picture.at<float>(y, x) =
-          static_cast<float>(kHead + seen * (kGround + uneven(p) - kHead));
+          static_cast<float>(kHeadLight + seen * (kGroundLight + uneven(p) - kHeadLight));
     }
   }
   return head;
@@ -60,7 +60,7 @@ void ExpectSmoothed(const HeadOnGround& head, double least_times) {
   const cv::Mat even = WithEvenGround(head.picture, head.rim);
   EXPECT_GT(UnevenBesideRim(head.picture, head.rim) / UnevenBesideRim(even, head.rim), least_times);
   const int middle = even.rows / 2;
-  EXPECT_FLOAT_EQ(even.at<float>(middle, middle), kHead);
+  EXPECT_FLOAT_EQ(even.at<float>(middle, middle), kHeadLight);
 }
 
 // Streaks of 6 px beside each other, no two alike, at 25 degrees.

@@ -17,7 +17,7 @@ namespace bladecurve {
 namespace {
 
 constexpr int kLamps = 6;
-constexpr double kMmPerPx = 0.07;
+constexpr double kScrewMmPerPx = 0.07;
 
 // A rendered head with a rounded rim, the lamp in one of kLamps directions.
 RenderedPhoto LitHead(int lamp, double glint) {
@@ -25,7 +25,7 @@ RenderedPhoto LitHead(int lamp, double glint) {
   scene.seed = static_cast<std::uint32_t>(lamp + 1);
   scene.width = 1200;
   scene.height = 900;
-  scene.camera.mm_per_px = kMmPerPx;
+  scene.camera.mm_per_px = kScrewMmPerPx;
   scene.light.direction_rad = 2 * std::numbers::pi * lamp / kLamps;
   scene.light.glint = glint;
   return RenderScene(scene);
@@ -51,7 +51,7 @@ struct Errors {
 
 Errors ErrorsOverLamps(double glint) {
   constexpr double kChiSquare = 5.991;  // of two coordinates, 95 %
-  const double radius_px = ScissorsSpec().screw_radius_mm / kMmPerPx;
+  const double radius_px = ScissorsSpec().screw_radius_mm / kScrewMmPerPx;
   double squares = 0, variances = 0;
   Errors errors;
   for (int lamp = 0; lamp < kLamps; ++lamp) {

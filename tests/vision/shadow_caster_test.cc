@@ -14,12 +14,12 @@
 namespace bladecurve {
 namespace {
 
-const cv::Size kSize(600, 400);
+const cv::Size kPictureSize(600, 400);
 const cv::Point kShift(14, 9);
 
 // Two members that cross, with rings, moved aside.
 cv::Mat Scissors(const cv::Point& aside = {0, 0}) {
-  cv::Mat mask = cv::Mat::zeros(kSize, CV_8UC1);
+  cv::Mat mask = cv::Mat::zeros(kPictureSize, CV_8UC1);
   for (const int side : {-1, 1}) {
     const cv::Point tip = cv::Point(80, 200 + side * 70) + aside;
     const cv::Point ring = cv::Point(480, 200 - side * 90) + aside;
@@ -31,7 +31,7 @@ cv::Mat Scissors(const cv::Point& aside = {0, 0}) {
 
 // As a small picture shows them: blurred and noisy, 0 on the ground.
 cv::Mat Seen(double metal, const cv::Mat& other, double tone) {
-  cv::Mat lightness = cv::Mat::zeros(kSize, CV_32FC1), noise(kSize, CV_32FC1);
+  cv::Mat lightness = cv::Mat::zeros(kPictureSize, CV_32FC1), noise(kPictureSize, CV_32FC1);
   lightness.setTo(tone, other);
   lightness.setTo(metal, Scissors());
   cv::GaussianBlur(lightness, lightness, {}, 1.2);
@@ -66,7 +66,7 @@ TEST(BestMovedImage, IsTheShadow) {
   EXPECT_LT(backwards.agreement, image.agreement) << "the scissors cover some of it";
 }
 
-const cv::Mat kNoneColoured = cv::Mat::zeros(kSize, CV_8UC1);
+const cv::Mat kNoneColoured = cv::Mat::zeros(kPictureSize, CV_8UC1);
 
 TEST(MasksOfShadowCaster, AreOfTheMetalWhateverItsTone) {
   const cv::Mat shadow = Scissors(kShift);
@@ -84,7 +84,7 @@ TEST(MasksOfShadowCaster, AreOfTheColouredToo) {
   constexpr double kBlade = -45, kShadow = -35;
   const cv::Mat shadow = Scissors(kShift), things = Scissors() | shadow;
   cv::Mat handles = kNoneColoured.clone();
-  handles.colRange(300, kSize.width).setTo(255);
+  handles.colRange(300, kPictureSize.width).setTo(255);
   handles &= Scissors();
   cv::Mat lightness = Seen(kBlade, shadow, kShadow);
   lightness.setTo(kShadow, handles);
@@ -100,7 +100,7 @@ TEST(MasksOfShadowCaster, AreNoneWithoutAShadow) {
   EXPECT_TRUE(MasksOfShadowCaster(Seen(kMetal, cv::Mat(), 0), Scissors(), kNoneColoured).empty());
   EXPECT_TRUE(MasksOfShadowCaster(Seen(25, image, 60), Scissors() | image, kNoneColoured).empty())
       << "a shadow is darker than the ground";
-  cv::Mat bevels = cv::Mat::zeros(kSize, CV_8UC1), metal = Seen(kMetal, cv::Mat(), 0);
+  cv::Mat bevels = cv::Mat::zeros(kPictureSize, CV_8UC1), metal = Seen(kMetal, cv::Mat(), 0);
   cv::line(bevels, {80, 133}, {280, 200}, 255, 5);
   cv::line(bevels, {80, 267}, {280, 200}, 255, 5);
   metal.setTo(-60, bevels);
@@ -112,7 +112,7 @@ TEST(MasksOfShadowCaster, AreNoneWithoutAShadow) {
 TEST(JoinPartedMembers, GoesOnWithTheBladeThatAShadowParts) {
   const cv::Mat whole = Scissors();
   const cv::Point shift(-40, -25);
-  cv::Mat shadow = cv::Mat::zeros(kSize, CV_8UC1), blade = shadow.clone();
+  cv::Mat shadow = cv::Mat::zeros(kPictureSize, CV_8UC1), blade = shadow.clone();
   cv::line(shadow, cv::Point(80, 270) + shift, cv::Point(480, 110) + shift, 255, 13);
   cv::line(blade, {80, 130}, {230, 190}, 255, 13);
   cv::Mat mask = whole.clone();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "process_folder.h"
+#include "tests/degree.h"
 #include "vision/card_scene.h"
 #include "vision/photo/png_writer.h"
 #include "vision/render/render.h"
@@ -23,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector2d;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 Photo Save(const RenderedPhoto& photo, const std::string& name) {
   const fs::path path = ProcessFolder() / name;

@@ -61,7 +61,7 @@ double Bound(const SquareImage& image, double length_px) {
                    (contrast * contrast * length_px * (1 - share)));
 }
 
-class StraightEdgeBound : public testing::TestWithParam<double> {};
+class StraightEdgeBound : public ::testing::TestWithParam<double> {};
 
 TEST_P(StraightEdgeBound, IsReachedWithoutBias) {
   constexpr int kDraws = 50;
@@ -77,7 +77,7 @@ TEST_P(StraightEdgeBound, IsReachedWithoutBias) {
   EXPECT_NEAR(scatter.mean_sigma / scatter.rms, 1, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Blurs, StraightEdgeBound, testing::Values(0.6, 1.0, 1.5));
+INSTANTIATE_TEST_SUITE_P(Blurs, StraightEdgeBound, ::testing::Values(0.6, 1.0, 1.5));
 
 TEST(LocateStraightEdge, LeavesOutWhatLiesOverIt) {
   std::mt19937 random(3);
