@@ -260,20 +260,23 @@ TEST(JudgeDarkBand, AsksNoPatternThatDoesNotGoOnAcrossTheBand) {
   EXPECT_EQ(JudgeOn(Grain, 1), DarkBand::kUnknown);
 }
 
-// Of the edge of OutsideABand, in light that depends on the distance from it.
+// Of the edge of OutsideABand.
+std::optional<ColourBorder> BorderIn(const cv::Mat& bgr,
+                                     double blade_px = 60,
+                                     double told_apart = kToldApart) {
+  constexpr double kGapPx = 60;
+  LocatedEdge other = OutsideABand();
+  for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
+  return FindColourBorder(
+      {bgr, 1}, testing::GammaCurve(1), OutsideABand(), other, blade_px, told_apart);
+}
+
+// In light that depends on the distance from the edge.
 std::optional<ColourBorder> BorderBeside(const std::function<Vector3d(double)>& light,
                                          double blade_px = 60,
                                          double told_apart = kToldApart) {
   Gaussian random(4);
-  constexpr double kGapPx = 60;
-  LocatedEdge other = OutsideABand();
-  for (LocatedEdgePoint& p : other.points) p.trend_px += kGapPx * kNormal;
-  return FindColourBorder({Coloured(random, light), 1},
-                          testing::GammaCurve(1),
-                          OutsideABand(),
-                          other,
-                          blade_px,
-                          told_apart);
+  return BorderIn(Coloured(random, light), blade_px, told_apart);
 }
 
 double MeanOffset(const std::vector<Vector2d>& path_px) {
@@ -307,6 +310,24 @@ TEST(ColourBorder, LiesWhereTheBladesColourEndsNotWhereItsBevelDoes) {
     EXPECT_NEAR(MeanOffset(border->path_px), kBandPx, 1) << bevel;
     EXPECT_NEAR(border->offset_px, kBandPx, 1.5) << bevel;
   }
+}
+
+// A shadow narrows along the edge; what compression smears ends with its blocks.
+TEST(ColourBorder, IsNoneWhereColourEndsWithABlock) {
+  constexpr double kHalfPx = 8;
+  const Vector3d steel(90, 86, 82), wood(60, 110, 190), smeared = 1.3 * steel;
+  const Vector2d along(-kNormal.y(), kNormal.x());
+  const auto border_with = [&](const std::function<double(double)>& width_px) {
+    Gaussian random(4);
+    return BorderIn(Patterned(random, [&](double d, const Vector2d& place) -> Vector3d {
+      return steel + Smooth(d) * (smeared - steel) +
+             Smooth(d - width_px(along.dot(place) - 40)) * (wood - smeared);
+    }));
+  };
+  const auto narrowing = border_with([](double at_px) { return kHalfPx * (1 - at_px / 70); });
+  ASSERT_TRUE(narrowing);
+  EXPECT_NEAR(MeanOffset(narrowing->path_px), kHalfPx, 1);
+  EXPECT_FALSE(border_with([](double at_px) { return at_px < 0 ? 2 * kHalfPx : 0; }));
 }
 
 // Grey shows the border of a bevel as dark as the ground for the blade's: what is then left of the

@@ -239,6 +239,16 @@ std::vector<Vector2d> Moved(const LocatedEdge& edge, const std::vector<StretchOf
   return path;
 }
 
+// How steeply the border nears the edge or leaves it, where it does most. Px a px along it.
+double SteepestWay(const std::vector<Vector2d>& border, const std::vector<StretchOffset>& offsets) {
+  double steepest = 0;
+  for (std::size_t k = 1; k < border.size(); ++k) {
+    const double across = std::abs(offsets[k].offset_px - offsets[k - 1].offset_px);
+    steepest = std::max(steepest, across / (border[k] - border[k - 1]).norm());
+  }
+  return steepest;
+}
+
 // Typical distance of a place on the border from the line between its neighbours.
 double KinkOf(const std::vector<Vector2d>& border) {
   std::vector<double> kinks;
@@ -270,6 +280,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              double told_apart) {
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
+  constexpr double kSteepest = 0.4;   // px a px along the edge; blocks of smeared colour just end
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
   const EdgeInColours seen{colours, tone, edge, blade_px, told_apart};
   std::vector<StretchOffset> offsets;
@@ -284,7 +295,9 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
     border.push_back(middle.trend_px + offsets.back().offset_px * middle.normal);
     certain.push_back(colours.px * transition->Certain());
   }
-  if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px) return std::nullopt;
+  if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px ||
+      SteepestWay(border, offsets) > kSteepest)
+    return std::nullopt;
   return ColourBorder{Moved(edge, offsets), MedianOfFarthestThird(certain)};
 }
 
