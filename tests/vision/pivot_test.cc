@@ -141,23 +141,26 @@ TEST(FindPivot, TakesAFaintestHeadInAKnownViewOrWhereTheBladesTurn) {
   EXPECT_EQ(found(unknown_view).source, "geometry");
 }
 
-TEST(LookAtJoint, TakesNoFaintRoundThroughACrotchForAHead) {
+TEST(LookAtJoint, TakesNoFaintRoundThroughOrBeyondACrotchForAHead) {
   SceneSpec spec = SceneWithMarkers();
   spec.scissors.screw_radius_mm = 1.65;
   spec.sensor.noise_grey = 1;
   const Measured measured{spec};
-  const auto look = [&](double crotch_radii) {  // before the head, and as much further behind it
+  const auto look = [&](double shanks_at, double blades_at) {  // ahead of the head, radii
     const Vector2d radius_px =
         spec.scissors.screw_radius_mm / measured.truth.mm_per_px * measured.truth.axis_px;
     Scene scene = measured.scene;
-    scene.shank_crotch_px = measured.truth.screw_px - crotch_radii * radius_px;
-    scene.crotch_px = measured.truth.screw_px + (crotch_radii + 0.5) * radius_px;
+    scene.shank_crotch_px = measured.truth.screw_px + shanks_at * radius_px;
+    scene.crotch_px = measured.truth.screw_px + blades_at * radius_px;
     return LookAtJoint(measured.photo.grey(), measured.scale, scene);
   };
-  const std::optional<Screw> clear_of_crotches = look(2);
+  const std::optional<Screw> clear_of_crotches = look(-2, 2.5);
   ASSERT_TRUE(clear_of_crotches);
   EXPECT_LT(clear_of_crotches->evidence, kFaintHead);
-  EXPECT_FALSE(look(1));
+  EXPECT_FALSE(look(-1, 1.5));
+  EXPECT_TRUE(look(-0.5, 1.5));
+  EXPECT_FALSE(look(0.5, 1.5));
+  EXPECT_FALSE(look(-1.5, -0.5));
 }
 
 // A rim seen where none is, aside of the line about which the blades mirror each other.

@@ -112,14 +112,22 @@ bool RunsThroughCrotch(const Screw& screw, const Scene& scene) {
   return is_near(scene.shank_crotch_px) || is_near(scene.crotch_px);
 }
 
-// The head that is seen, unless it is in doubt and runs through a crotch.
+// Whether it lies where blades or shanks have parted: between them is ground, dark in their shadow.
+bool LiesBeyondCrotch(const Screw& screw, const Scene& scene) {
+  const Vector2d joint = scene.crotch_px - scene.shank_crotch_px;
+  const double share = joint.dot(screw.center_px - scene.shank_crotch_px) / joint.squaredNorm();
+  return share < 0 || share > 1;
+}
+
+// The head that is seen, unless it is in doubt and may be an outline about a crotch.
 std::optional<Screw> Find(const cv::Mat& grey,
                           const ScaleResult& scale,
                           const Scene& scene,
                           const ScrewSearch& search) {
   const std::optional<Screw> screw = FindScrew(grey, scale.tone, search);
-  if (!screw || screw->evidence > kBeyondDoubt || !RunsThroughCrotch(*screw, scene)) return screw;
-  return std::nullopt;
+  if (!screw || screw->evidence > kBeyondDoubt) return screw;
+  const bool about_crotch = RunsThroughCrotch(*screw, scene) || LiesBeyondCrotch(*screw, scene);
+  return about_crotch ? std::nullopt : screw;
 }
 
 std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search) {
