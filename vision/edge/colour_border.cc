@@ -239,11 +239,15 @@ std::vector<Vector2d> Moved(const LocatedEdge& edge, const std::vector<StretchOf
   return path;
 }
 
-// How steeply the border nears the edge or leaves it, where it does most. Px a px along it.
-double SteepestWay(const std::vector<Vector2d>& border, const std::vector<StretchOffset>& offsets) {
+// How steeply the border nears the edge or leaves it, px a px along it, where it does most, by a
+// block of compression or more.
+double SteepestJump(const std::vector<Vector2d>& border,
+                    const std::vector<StretchOffset>& offsets) {
+  constexpr double kBlockPx = 8;
   double steepest = 0;
   for (std::size_t k = 1; k < border.size(); ++k) {
     const double across = std::abs(offsets[k].offset_px - offsets[k - 1].offset_px);
+    if (across < kBlockPx) continue;
     steepest = std::max(steepest, across / (border[k] - border[k - 1]).norm());
   }
   return steepest;
@@ -296,7 +300,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
     certain.push_back(colours.px * transition->Certain());
   }
   if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px ||
-      SteepestWay(border, offsets) > kSteepest)
+      SteepestJump(border, offsets) > kSteepest)
     return std::nullopt;
   return ColourBorder{Moved(edge, offsets), MedianOfFarthestThird(certain)};
 }
