@@ -3,7 +3,6 @@
 #include "tests/model/cutting_scenes.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bladecurve {
 namespace {

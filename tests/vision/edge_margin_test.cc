@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "vision/edge_images.h"
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/degree.h"
