@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The bladecurve authors
 // SPDX-License-Identifier: MIT
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>

@@ -4,19 +4,17 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "curvefit/bands.h"
 #include "curvefit/fit.h"
 #include "fit_errors.h"
 #include "simulated_edges.h"
+#include "tests/degree.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 EdgePoints Simulate(const TrueScissors& scissors, const SimulatedPhoto& photo, unsigned seed = 1) {
   Noise noise(seed);

@@ -37,14 +37,14 @@ BladeCurve RandomWavyBlade(std::mt19937& random) {
 
 std::vector<Pose> RandomMotion(std::uint32_t seed, int samples, bool slicing) {
   std::mt19937 random(seed);
-  std::vector<Pose> motion = {{30 * kRad, 0}};
+  std::vector<Pose> motion = {{30 * kDegree, 0}};
   double speed_deg = -0.3, pivot_speed_mm = 0;
   for (int i = 1; i < samples; ++i) {
     if (Uniform(random, 0, 1) < 0.08) speed_deg = Uniform(random, -0.9, 0.45);
-    if (motion.back().theta_rad < 1 * kRad) speed_deg = Uniform(random, 0.1, 0.3);
+    if (motion.back().theta_rad < 1 * kDegree) speed_deg = Uniform(random, 0.1, 0.3);
     if (slicing && Uniform(random, 0, 1) < 0.08) pivot_speed_mm = Uniform(random, -0.2, 0.3);
     Pose pose = motion.back();
-    pose.theta_rad = std::min(pose.theta_rad + speed_deg * kRad, 35 * kRad);
+    pose.theta_rad = std::min(pose.theta_rad + speed_deg * kDegree, 35 * kDegree);
     pose.pivot_mm = std::clamp(pose.pivot_mm + pivot_speed_mm, -5.0, 15.0);
     motion.push_back(pose);
   }
@@ -54,7 +54,7 @@ std::vector<Pose> RandomMotion(std::uint32_t seed, int samples, bool slicing) {
 std::vector<Pose> StraightMotion(double from_deg, double to_deg, int steps) {
   std::vector<Pose> motion;
   for (int i = 0; i <= steps; ++i)
-    motion.push_back({(from_deg + (to_deg - from_deg) * i / steps) * kRad, 0});
+    motion.push_back({(from_deg + (to_deg - from_deg) * i / steps) * kDegree, 0});
   return motion;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/torque.h"
+#include "tests/degree.h"
 #include "tests/model/uniform.h"
 
 namespace bladecurve {
@@ -14,7 +15,6 @@ namespace bladecurve {
 // The paper's scissors and plates, curved blades, and motions to cut with: what the tests of the
 // torque share.
 
-constexpr double kRad = 0.017453292519943295;  // per degree
 constexpr PlateSpan kCutSpan{45, 68};
 
 [[nodiscard]] BladeCurve SmallMetzenbaum();  // a = -11, b = 0.14

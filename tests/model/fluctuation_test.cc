@@ -67,7 +67,7 @@ Stretch CutStretch(const FluctuatingScene& s, double from_deg, double to_deg) {
   Stretch stretch;
   double kappa_most = 0, kappa_variation = 0, kappa_last = NAN, last = 0;
   constexpr int kSteps = 8000;
-  const double turn_rad = (from_deg - to_deg) * kRad / kSteps;
+  const double turn_rad = (from_deg - to_deg) * kDegree / kSteps;
   for (const Pose& pose : StraightMotion(from_deg, to_deg, kSteps)) {
     const TorqueSample a = mean.Step(pose.theta_rad, 0, 1e-3);
     const TorqueSample b = rough.Step(pose.theta_rad, 0, 1e-3);

@@ -22,8 +22,8 @@ TEST(FrictionCurve, InterpolatesEachDirectionAndHoldsItsEnds) {
 TEST(FrictionCurve, OfATableReadsDescendingAnglesAndMirrorsAMissingDirection) {
   const FrictionCurve curve =
       FrictionOfTable(ParseNumberTable("theta_deg,closing_n\n20,2\n10,1\n", "f.csv"));
-  EXPECT_DOUBLE_EQ(curve.Closing(15 * kRad), 1.5);
-  EXPECT_DOUBLE_EQ(curve.Opening(15 * kRad), -1.5);
+  EXPECT_DOUBLE_EQ(curve.Closing(15 * kDegree), 1.5);
+  EXPECT_DOUBLE_EQ(curve.Opening(15 * kDegree), -1.5);
 }
 
 TEST(FrictionCurve, RefusesUnsortedAngles) {

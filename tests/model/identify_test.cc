@@ -117,7 +117,7 @@ TEST(IdentifyMaterial, LocatesThePhases) {
   }
   std::mt19937 random(4);
   for (const IdentifiedCut& cut : IdentifyMaterial(Logs(e, random)).cuts) {
-    constexpr double kNear = 0.1 * kRad;
+    constexpr double kNear = 0.1 * kDegree;
     EXPECT_NEAR(cut.phases.contact_rad, contact_rad, kNear);
     EXPECT_NEAR(cut.phases.start_rad, start_rad, kNear);
     EXPECT_NEAR(cut.phases.end_rad, end_rad, kNear);

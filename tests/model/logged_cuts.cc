@@ -29,9 +29,9 @@ std::string Log(const Rig& rig, std::mt19937& random, const PlateTorque& plate_n
   for (int i = 0; i < static_cast<int>(seconds * rig.rate_hz); ++i) {
     const double t_s = i / rig.rate_hz;
     const double theta_deg = rig.from_deg - phase_deg - rig.rate_deg_per_s * t_s;
-    const double rubbing_n = friction_n * (1 + 0.3 * std::cos(theta_deg * kRad * 4));
+    const double rubbing_n = friction_n * (1 + 0.3 * std::cos(theta_deg * kDegree * 4));
     const double force_n =
-        plate_nmm(theta_deg * kRad) / rig.radius_mm + rubbing_n + rig.noise_n * Gauss(random);
+        plate_nmm(theta_deg * kDegree) / rig.radius_mm + rubbing_n + rig.noise_n * Gauss(random);
     csv += NumberText(t_s) + ',' + NumberText(Rounded(theta_deg + zero_deg, rig.encoder_step_deg)) +
            ',' + NumberText(Rounded(force_n, rig.force_step_n)) + '\n';
   }

@@ -86,7 +86,7 @@ TEST(TorqueModelExtremes, TheTipIsReachedBeforeThePole) {
     const BladeCurve blade(TaperedRectangle{-11, b, 0.5}, {0, 80, -1, 1.2});
     TorqueModel model(blade, PaperMaterials()[0], {Uniform(random, 40, 60), 1000});
     TorqueSample sample;
-    for (const Pose& pose : StraightMotion(68, pole_rad / kRad, 1000)) {
+    for (const Pose& pose : StraightMotion(68, pole_rad / kDegree, 1000)) {
       sample = model.Step(pose.theta_rad, 0, 1e-3);
       ExpectFinite(sample, "b = " + std::to_string(b));
       // At the blade's end s is 11/80, whatever b, and tau_c 72 N mm; the pole would be beyond it.
@@ -107,7 +107,7 @@ TEST(TorqueModelExtremes, TorqueFadesSmoothlyAtBothEndsOfTheBlade) {
     TorqueModel model(BladeCurve(TaperedRectangle{-11, 0.14, 0.5}, {0, 80, 0, 1.2}),
                       {"tough", 1e9, 0.1, ForceDeflection(LogUniform(random, 1e-3, 1e3))},
                       {edge_mm, edge_mm + 20});
-    const double theta_rad = Uniform(random, 0, 10) * kRad;
+    const double theta_rad = Uniform(random, 0, 10) * kDegree;
     std::vector<double> torques_nmm;
     const int steps = 40000;
     for (int i = 0; i <= steps; ++i) {
@@ -154,7 +154,7 @@ TEST(TorqueModelExtremes, TheCrackFollowsOneContactAndJumpsOnlyWhereThatEnds) {
 
 TEST(TorqueModelExtremes, EncoderNoiseAloneCutsNothing) {
   std::mt19937 random(6);
-  const double count_rad = 0.01 * kRad;
+  const double count_rad = 0.01 * kDegree;
   for (int trial = 0; trial < 100; ++trial) {
     const DeltaPolicy policy = trial % 2 == 0 ? DeltaPolicy::kConstant : DeltaPolicy::kCriterion;
     TorqueModel model(SmallMetzenbaum(),

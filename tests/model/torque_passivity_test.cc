@@ -73,8 +73,8 @@ class Meter {
   bool started_ = false;
 };
 
-constexpr double kOpen_rad = 68 * kRad;  // touches none of these plates
-constexpr int kSteps = 16;               // of a stretch
+constexpr double kOpen_rad = 68 * kDegree;  // touches none of these plates
+constexpr int kSteps = 16;                  // of a stretch
 
 struct PassiveScene {
   BladeCurve blade;
@@ -97,9 +97,9 @@ Meter MeterOf(const PassiveScene& scene) {
 
 // Angles that wander between 5 and 25 degrees and come back to where they began.
 std::vector<double> AngleLoop(std::mt19937& random) {
-  std::vector<double> angles_rad = {Uniform(random, 5, 25) * kRad};
+  std::vector<double> angles_rad = {Uniform(random, 5, 25) * kDegree};
   for (int i = static_cast<int>(random() % 2); i < 2; ++i)
-    angles_rad.push_back(Uniform(random, 5, 25) * kRad);
+    angles_rad.push_back(Uniform(random, 5, 25) * kDegree);
   angles_rad.push_back(angles_rad.front());
   return angles_rad;
 }
@@ -138,7 +138,7 @@ TEST(TorqueModelPassivity, APivotThatMovesAtOneAngleNeverGivesMoreThanItTook) {
   int cut = 0;
   for (int i = 0; i < kLoops; ++i) {
     Meter meter = MeterOf(RandomPassiveScene(random, i % 2 == 0));
-    const double theta_rad = Uniform(random, 5, 25) * kRad;
+    const double theta_rad = Uniform(random, 5, 25) * kDegree;
     meter.MoveTo({theta_rad, -100}, 1);  // withdrawn from the plate
     const double crack_mm = meter.crack_mm();
     for (int corner = 0; corner < 3; ++corner)
@@ -155,11 +155,11 @@ TEST(TorqueModelPassivity, APivotThatMovesAtOneAngleNeverGivesMoreThanItTook) {
 // haptic program that moves the pivot has to see to its energy itself.
 TEST(TorqueModelPassivity, PivotAndBladesThatMoveInTurnCanGiveEnergy) {
   Meter meter(TorqueModel(SmallMetzenbaum(), {"tough", 1e9, 0.1, ForceDeflection(5)}, {45, 68}));
-  meter.MoveTo({20 * kRad, -20}, 1);   // withdrawn from the plate
-  meter.MoveTo({20 * kRad, 0}, 2000);  // in: f_x takes
-  meter.MoveTo({kOpen_rad, 0}, 2000);  // open: the torque gives more
-  meter.MoveTo({kOpen_rad, -20}, 10);  // out and closed again, touching nothing
-  meter.MoveTo({20 * kRad, -20}, 10);
+  meter.MoveTo({20 * kDegree, -20}, 1);   // withdrawn from the plate
+  meter.MoveTo({20 * kDegree, 0}, 2000);  // in: f_x takes
+  meter.MoveTo({kOpen_rad, 0}, 2000);     // open: the torque gives more
+  meter.MoveTo({kOpen_rad, -20}, 10);     // out and closed again, touching nothing
+  meter.MoveTo({20 * kDegree, -20}, 10);
   EXPECT_LT(meter.work_nmm() + meter.error_nmm(), -1);
 }
 
@@ -167,10 +167,10 @@ TEST(TorqueModelPassivity, ALoopThatCutsNothingGivesBackWhatItTook) {
   // Elastic only: the torque is a function of the angle.
   TorqueModel model(SmallMetzenbaum(), {"tough", 1e9, 0.1, ForceDeflection(5)}, {45, 68});
   double work_nmm = 0, taken_nmm = 0;
-  TorqueSample last = model.Step(25 * kRad, 0, 1e-3);
+  TorqueSample last = model.Step(25 * kDegree, 0, 1e-3);
   std::vector<Pose> motion = StraightMotion(25, 5, 2000);
   for (const Pose& pose : StraightMotion(5, 25, 2000)) motion.push_back(pose);
-  double theta_rad = 25 * kRad;
+  double theta_rad = 25 * kDegree;
   for (const Pose& pose : motion) {
     const TorqueSample sample = model.Step(pose.theta_rad, 0, 1e-3);
     work_nmm += StepWork(last, sample, pose.theta_rad - theta_rad);

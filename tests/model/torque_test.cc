@@ -125,7 +125,7 @@ TEST(TorqueModel, OfConstantDeltaJumpsDownWhereTheBladesOpenAndCutsAgainFurtherO
     const TorqueSample sample = model.Step(pose.theta_rad, 0, 1e-3);
     Note(model, events);
     EXPECT_EQ(sample.x_c_mm, crack_mm) << "the crack healed";
-    EXPECT_TRUE(pose.theta_rad <= 10 * kRad || sample.phase != Phase::kCutting);
+    EXPECT_TRUE(pose.theta_rad <= 10 * kDegree || sample.phase != Phase::kCutting);
   }
   EXPECT_LT(events.stop_jump, 0);
   events = {};
@@ -133,7 +133,7 @@ TEST(TorqueModel, OfConstantDeltaJumpsDownWhereTheBladesOpenAndCutsAgainFurtherO
     static_cast<void>(model.Step(pose.theta_rad, 0, 1e-3));
     Note(model, events);
   }
-  EXPECT_LT(events.start_rad, 10 * kRad);
+  EXPECT_LT(events.start_rad, 10 * kDegree);
 }
 
 TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
@@ -142,7 +142,7 @@ TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
     Events events;
     for (const Pose& pose : StraightMotion(30, 10, 2000))
       static_cast<void>(model.Step(pose.theta_rad, 0, 1e-3));
-    const double torque_nmm = model.Step(10 * kRad, 0, 1e-3).torque_nmm;
+    const double torque_nmm = model.Step(10 * kDegree, 0, 1e-3).torque_nmm;
     for (const Pose& pose : StraightMotion(10, 20, 1000)) {
       static_cast<void>(model.Step(pose.theta_rad, 0, 1e-3));
       Note(model, events);
@@ -152,7 +152,7 @@ TEST(TorqueModel, OfTheCriterionIsContinuousWhereTheBladesOpenAndClose) {
       static_cast<void>(model.Step(pose.theta_rad, 0, 1e-3));
       Note(model, events);
     }
-    EXPECT_NEAR(events.start_rad, 10 * kRad, kClosedForm) << material.name;
+    EXPECT_NEAR(events.start_rad, 10 * kDegree, kClosedForm) << material.name;
   }
 }
 
@@ -165,14 +165,14 @@ TEST(TorqueModel, KeepsTheAverageTorqueOfCutting) {
     const TorqueSample sample = model.Step(pose.theta_rad, 0, 1e-3);
     if (sample.phase == Phase::kCutting && last.phase == Phase::kCutting) {
       sum_nmm += 0.5 * (sample.torque_nmm + last.torque_nmm);
-      turn_rad += 20 * kRad / kSteps;
+      turn_rad += 20 * kDegree / kSteps;
     }
     last = sample;
   }
   constexpr double kOneStep = 1e-4;  // the cut starts within one
   EXPECT_NEAR(model.ledger().cut_turn_rad / turn_rad, 1, kOneStep);
   const double average_nmm = model.ledger().cut_work_nmm / model.ledger().cut_turn_rad;
-  EXPECT_NEAR(average_nmm * turn_rad / (sum_nmm * 20 * kRad / kSteps), 1, kOneStep);
+  EXPECT_NEAR(average_nmm * turn_rad / (sum_nmm * 20 * kDegree / kSteps), 1, kOneStep);
 }
 
 TEST(TorqueModel, SlicesWithConstantTorqueAndForceAtAConstantAngle) {
@@ -180,13 +180,14 @@ TEST(TorqueModel, SlicesWithConstantTorqueAndForceAtAConstantAngle) {
   TorqueSample first;
   for (const Pose& pose : StraightMotion(30, 15, 1500)) first = model.Step(pose.theta_rad, 0, 1e-3);
   ASSERT_EQ(first.phase, Phase::kCutting);
-  const double slope = SlopeAt(0.14, 15 * kRad);
-  const double alpha = 7.5 * kRad - std::atan(slope);
-  EXPECT_NEAR(first.force_x_n,
-              -first.torque_nmm / (first.x_c_mm * std::cos(alpha)) * std::sin(7.5 * kRad - alpha),
-              kClosedForm);
+  const double slope = SlopeAt(0.14, 15 * kDegree);
+  const double alpha = 7.5 * kDegree - std::atan(slope);
+  EXPECT_NEAR(
+      first.force_x_n,
+      -first.torque_nmm / (first.x_c_mm * std::cos(alpha)) * std::sin(7.5 * kDegree - alpha),
+      kClosedForm);
   for (int i = 1; i <= 500; ++i) {
-    const TorqueSample sample = model.Step(15 * kRad, 0.01 * i, 1e-3);
+    const TorqueSample sample = model.Step(15 * kDegree, 0.01 * i, 1e-3);
     EXPECT_EQ(sample.phase, Phase::kCutting);
     EXPECT_NEAR(sample.torque_nmm / first.torque_nmm, 1, kClosedForm);
     EXPECT_NEAR(sample.force_x_n / first.force_x_n, 1, kClosedForm);

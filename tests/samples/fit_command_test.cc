@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "model/blade_file.h"
+#include "tests/degree.h"
 #include "tests/samples/json_point.h"
 #include "tests/samples/picture_files.h"
 #include "tests/samples/program_run.h"
@@ -173,7 +173,6 @@ TEST(Fit, FindsTheTruthOfARenderedPhotograph) {
 TEST(Fit, GivenThetaIsAsGoodAsAProtractorAndIsDoubtedWhereTheEndsSayOtherwise) {
   const fs::path folder = TestFolder();
   WriteText(folder / "scissors.jpg", JpegFile(PhotoFromAbove().bgr));
-  constexpr double kDegree = std::numbers::pi / 180;
   const double truth_deg = PhotoFromAbove().truth.theta_rad / kDegree;
   const auto given = [&](double theta_deg) {
     const std::string theta = std::to_string(theta_deg);
@@ -396,7 +395,7 @@ TEST(Fit, WarnsOfBladesThatNoScissorsHave) {
 }
 
 TEST(Fit, WarnsOfAnAngleThatIsVague) {
-  constexpr double kQuarterDegree = 0.25 * std::numbers::pi / 180;
+  constexpr double kQuarterDegree = 0.25 * kDegree;
   const fs::path folder = TestFolder();
   int vague = 0, plain = 0;
   for (const double scale : {1.0, 0.5, 0.25, 0.18}) {

@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 using Eigen::Vector2d;
 using Json = nlohmann::json;
 
-const fs::path kPhotos = fs::path(BLADECURVE_SOURCE_DIR) / "samples/photos";
-
 // What a user would call right at a glance, and a tenth of what scripts with Otsu thresholds are
 // off.
 constexpr double kEdgeTolerancePx = 0.5;
@@ -34,7 +32,7 @@ constexpr double kScaleTolerance = 0.003;
 
 std::vector<std::string> SampleNames() {
   std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(kPhotos)) {
+  for (const auto& entry : fs::directory_iterator(SamplePhotos())) {
     if (entry.path().extension() == ".jpg") names.push_back(entry.path().stem().string());
   }
   std::sort(names.begin(), names.end());
@@ -76,7 +74,7 @@ ProgramRun FitSample(const std::string& name, const Json& truth) {
   const fs::path folder = TestFolder();
   WriteCamera(folder / "camera.json", truth);
   return RunBladecurve({"fit",
-                        (kPhotos / (name + ".jpg")).string(),
+                        (SamplePhotos() / (name + ".jpg")).string(),
                         "--json",
                         "-",
                         "--marker-mm",
@@ -99,7 +97,7 @@ double Allowed(double tolerance, const Json& record, const char* sigma_key) {
 class SamplePhotograph : public testing::TestWithParam<std::string> {};
 
 TEST_P(SamplePhotograph, AgreesWithItsTruth) {
-  const Json truth = Json::parse(ReadText(kPhotos / (GetParam() + ".truth.json")));
+  const Json truth = Json::parse(ReadText(SamplePhotos() / (GetParam() + ".truth.json")));
   const ProgramRun run = FitSample(GetParam(), truth);
   if (truth["expect"] == "refuse") {
     EXPECT_EQ(run.exit_code, 3) << run.standard_error;

@@ -102,7 +102,7 @@ TEST_F(TorqueCommand, ReplaysAMotionBesideWhatWasMeasured) {
   int cutting = 0;
   for (int i = 0; i <= 2000; ++i) {
     const double theta_deg = 28 - 0.011 * i, pivot_mm = i > 1000 ? 0.002 * (i - 1000) : 0;
-    const TorqueSample sample = model.Step(theta_deg * kRad, pivot_mm, 1e-3);
+    const TorqueSample sample = model.Step(theta_deg * kDegree, pivot_mm, 1e-3);
     const bool cuts = sample.phase == Phase::kCutting;
     cutting += cuts;
     for (const double value : {1e-3 * i, theta_deg, pivot_mm}) motion += NumberText(value) + ",";
@@ -161,7 +161,7 @@ TEST_F(TorqueCommand, FrictionHoldsTheHandBackInRealTime) {
   const double free_deg = Csv(run).Get("theta_deg").back();
   const double held_deg = Csv(run + " --friction friction.csv").Get("theta_deg").back();
   // The hand's spring of 0.5 N/mm lags by 4 N of friction over 98 mm of handle.
-  EXPECT_NEAR((held_deg - free_deg) * kRad, 4 / 0.5 / 98, 0.5 * kRad);
+  EXPECT_NEAR((held_deg - free_deg) * kDegree, 4 / 0.5 / 98, 0.5 * kDegree);
 }
 
 TEST_F(TorqueCommand, PlotsAsPng) {

@@ -29,8 +29,6 @@ constexpr std::array<double, 8> kWeights = {0.1012285362903763,
                                             0.2223810344533745,
                                             0.1012285362903763};
 
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
-
 // Integral over [a, b], split so that the blur is resolved.
 template <typename Function>
 double Integrate(double a, double b, int pieces, const Function& function) {

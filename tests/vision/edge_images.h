@@ -38,9 +38,13 @@ class Gaussian {
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
+[[nodiscard]] inline double NormalCdf(double z) {
+  return 0.5 * std::erfc(-z / std::numbers::sqrt2);
+}
+
 // A step from 0 to 1, blurred by a Gaussian, d px beyond its middle.
 [[nodiscard]] inline double Smooth(double d, double blur_px = 0.8) {
-  return 0.5 * std::erfc(-d / blur_px / std::numbers::sqrt2);
+  return NormalCdf(d / blur_px);
 }
 
 // Share of background in each pixel, CV_64F, exact to 1e-8, by formulas that share nothing with the

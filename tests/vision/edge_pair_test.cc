@@ -716,8 +716,7 @@ TEST(BladeView, TakesTheColoursWhereGreyShowsAnEdgeFaintly) {
   cv::Mat bgr(kSide, kSide, CV_8UC3);
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide; ++x) {
-      const double ground =
-          0.5 * std::erfc(-from_edge(Eigen::Vector2d(x, y)) / kBlurPx / std::numbers::sqrt2);
+      const double ground = testing::Smooth(from_edge(Eigen::Vector2d(x, y)), kBlurPx);
       const Eigen::Vector3d light = steel + ground * (drape - steel);
       const double grain = kGrain * random();
       for (int c = 0; c < 3; ++c)

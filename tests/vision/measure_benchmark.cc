@@ -173,7 +173,7 @@ void MeasureAllRendered() {
 }  // namespace bladecurve
 
 int main(int argc, char** argv) {
-  cv::setNumThreads(1);  // as the program does, whose memory this one has too: ParallelFor alone shares out
+  cv::setNumThreads(1);  // as the program does: ParallelFor alone shares out
   fmt::print(
       "best of {} runs in turn, ms. imread: cv::imread, grey; own: our decoding, grey, on one "
       "thread;\n"

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/edge_images.h"
+
 namespace bladecurve {
 namespace {
 
@@ -14,8 +16,6 @@ double Encode(double linear) {
   const double v = std::clamp(linear, 0.0, 1.0);
   return 255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055);
 }
-
-double NormalCdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
 // Signed distance to the ellipse, inside negative; exact on it and to second order near it.
 double DistanceToEllipse(const HeadSpec& spec, const Eigen::Vector2d& p) {
@@ -97,9 +97,9 @@ cv::Mat RenderHeadExactly(const HeadSpec& spec) {
     for (int column = 0; column < spec.side_px; ++column) {
       const Eigen::Vector2d p = Eigen::Vector2d(column, row) - spec.center_px;
       const double distance = DistanceToEllipse(spec, p);
-      const double inside = NormalCdf(-distance / edge_sigma);
+      const double inside = testing::NormalCdf(-distance / edge_sigma);
       const double from_slot = std::abs(across.dot(p));
-      const double in_slot = inside * NormalCdf((half_slot - from_slot) / edge_sigma);
+      const double in_slot = inside * testing::NormalCdf((half_slot - from_slot) / edge_sigma);
       const double rim = std::exp(-0.5 * std::pow(distance / groove_sigma, 2));
       const double light =
           (spec.plate + spec.disc * inside) * (1 + spec.brushed * grain.at<double>(row, column)) +

@@ -239,18 +239,16 @@ std::vector<Vector2d> Moved(const LocatedEdge& edge, const std::vector<StretchOf
   return path;
 }
 
-// How steeply the border nears the edge or leaves it, px a px along it, where it does most, by a
-// block of compression or more.
-double SteepestJump(const std::vector<Vector2d>& border,
-                    const std::vector<StretchOffset>& offsets) {
+// Whether the border leaves the edge, or comes to it, by a block of compression and more at once:
+// shadows and bevels narrow slowly, smeared colour ends with its blocks.
+bool Jumps(const std::vector<Vector2d>& border, const std::vector<StretchOffset>& offsets) {
   constexpr double kBlockPx = 8;
-  double steepest = 0;
+  constexpr double kSteep = 0.4;  // px a px along the edge
   for (std::size_t k = 1; k < border.size(); ++k) {
     const double across = std::abs(offsets[k].offset_px - offsets[k - 1].offset_px);
-    if (across < kBlockPx) continue;
-    steepest = std::max(steepest, across / (border[k] - border[k - 1]).norm());
+    if (across >= kBlockPx && across > kSteep * (border[k] - border[k - 1]).norm()) return true;
   }
-  return steepest;
+  return false;
 }
 
 // Typical distance of a place on the border from the line between its neighbours.
@@ -284,7 +282,6 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
                                              double told_apart) {
   constexpr std::size_t kFewest = 4;  // stretches
   constexpr double kSmooth = 1;       // px of the reduced picture; borders have no kinks
-  constexpr double kSteepest = 0.4;   // px a px along the edge; blocks of smeared colour just end
   if (edge.points.size() < kStretches || other.points.empty()) return std::nullopt;
   const EdgeInColours seen{colours, tone, edge, blade_px, told_apart};
   std::vector<StretchOffset> offsets;
@@ -299,8 +296,7 @@ std::optional<ColourBorder> FindColourBorder(const ReducedColours& colours,
     border.push_back(middle.trend_px + offsets.back().offset_px * middle.normal);
     certain.push_back(colours.px * transition->Certain());
   }
-  if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px ||
-      SteepestJump(border, offsets) > kSteepest)
+  if (offsets.size() < kFewest || KinkOf(border) > kSmooth * colours.px || Jumps(border, offsets))
     return std::nullopt;
   return ColourBorder{Moved(edge, offsets), MedianOfFarthestThird(certain)};
 }

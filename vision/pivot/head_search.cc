@@ -11,6 +11,7 @@
 #include "vision/parallel.h"
 #include "vision/pivot/head_trust.h"
 #include "vision/pivot/slot_search.h"
+#include "vision/scene/joint.h"
 
 namespace bladecurve {
 namespace {
@@ -114,8 +115,7 @@ bool RunsThroughCrotch(const Screw& screw, const Scene& scene) {
 
 // Whether it lies where blades or shanks have parted: between them is ground, dark in their shadow.
 bool LiesBeyondCrotch(const Screw& screw, const Scene& scene) {
-  const Vector2d joint = scene.crotch_px - scene.shank_crotch_px;
-  const double share = joint.dot(screw.center_px - scene.shank_crotch_px) / joint.squaredNorm();
+  const double share = ShareOfJoint(scene, screw.center_px);
   return share < 0 || share > 1;
 }
 

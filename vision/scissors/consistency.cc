@@ -9,6 +9,7 @@
 
 #include "vision/image/cross.h"
 #include "vision/refused.h"
+#include "vision/scene/joint.h"
 #include "vision/scissors/edge_doubt.h"
 
 namespace bladecurve {
@@ -153,7 +154,7 @@ void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot) {
   if (pivot.source == "hint") return;
   const Eigen::Vector2d joint = scene.crotch_px - scene.shank_crotch_px;
   const Eigen::Vector2d along = joint / joint.squaredNorm();
-  const double share = along.dot(pivot.point_px - scene.shank_crotch_px);
+  const double share = ShareOfJoint(scene, pivot.point_px);
   const double slack = kSlack + kSigmas * std::sqrt(along.dot(pivot.covariance_px2 * along));
   if (share > -slack && share < 1 + slack) return;
   throw Refused(Reason::kAmbiguousPivot,
