@@ -219,6 +219,61 @@ TEST(ChooseTransition, TakesNoStreakForTheBorderBecauseItLiesOutsideOfAnother) {
   }
 }
 
+// Light of the parts of a narrow round blade, in grey values.
+struct RoundBlade {
+  double ridge, flank;
+};
+
+constexpr double kEnlargement = 2.1, kBorderOfSmall = 40;
+constexpr double kBorderOfEnlarged = kEnlargement * (kBorderOfSmall + 0.5) - 0.5;
+
+// Such a blade above a straight border, enlarged from a picture of few pixels: a ridge between
+// flanks that become narrower along it.
+cv::Mat EnlargedPicture(const RoundBlade& blade) {
+  constexpr int kLong = 80, kHigh = 70;
+  constexpr double kGround = 142, kNoise = 1.5;  // grey values
+  constexpr double kWide = 7.5, kNarrow = 3, kRidge = 4, kRidgeBlur = 1, kBlur = 1.3;  // px
+  cv::Mat picture(kHigh, kLong, CV_64F);
+  for (int x = 0; x < kLong; ++x) {
+    const double flank = kWide + (kNarrow - kWide) * x / kLong;
+    for (int y = 0; y < kHigh; ++y) {
+      const double d = y - kBorderOfSmall;
+      const double ridge =
+          testing::Smooth(d + flank + kRidge, kRidgeBlur) - testing::Smooth(d + flank, kRidgeBlur);
+      const double metal =
+          testing::Smooth(d + 2 * flank + kRidge, kBlur) - testing::Smooth(d, kBlur);
+      picture.at<double>(y, x) =
+          kGround * (1 - metal) + blade.ridge * ridge + blade.flank * (metal - ridge);
+    }
+  }
+  cv::Mat enlarged, stored;
+  cv::resize(picture, enlarged, {}, kEnlargement, kEnlargement, cv::INTER_CUBIC);
+  cv::Mat noise(enlarged.size(), CV_64F);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
+  cv::add(enlarged, noise, stored, cv::noArray(), CV_8U);
+  return stored;
+}
+
+ChosenTransition ChooseInEnlarged(const RoundBlade& blade) {
+  constexpr double kMargin = 10, kSearchPx = 13;
+  const cv::Mat picture = EnlargedPicture(blade);
+  const EdgePath guess = SmoothPath(
+      {{kMargin, kBorderOfEnlarged}, {picture.cols - kMargin, kBorderOfEnlarged}}, true, 3);
+  return ChooseTransition(picture, guess, kSearchPx);
+}
+
+TEST(ChooseTransition, TakesNoRidgeForTheBorderWhereThePictureIsSoft) {
+  constexpr double kClosePx = 0.5;
+  std::vector<double> off;
+  for (const Vector2d& point : ChooseInEnlarged({210, 45}).points)
+    off.push_back(std::abs(point.y() - kBorderOfEnlarged));
+  EXPECT_LT(Median(off), kClosePx);
+}
+
+TEST(ChooseTransition, SeesAFaintBorderAllAlongWhereThePictureIsSoft) {
+  EXPECT_GT(ChooseInEnlarged({107, 103}).support, 0.9);
+}
+
 TEST(DrawEdge, ShowsEveryPointAsItWasTaken) {
   const cv::Vec3b inlying(80, 220, 80), rejected(60, 60, 255), other(0, 230, 255);
   cv::Mat grey(80, 120, CV_8UC1, cv::Scalar(120));

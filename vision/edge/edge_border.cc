@@ -182,13 +182,7 @@ Survey SurveySmoothed(const cv::Mat& grey,
                       const EdgePath& guess,
                       double search_px,
                       double sigma_px) {
-  std::vector<cv::Point2f> points;
-  for (const Eigen::Vector2d& p : guess.points)
-    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-  const int reach = static_cast<int>(std::ceil(SurveyReachPx(search_px) + 4 * sigma_px));
-  cv::Rect box = cv::boundingRect(points);
-  box = cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
-        cv::Rect(0, 0, grey.cols, grey.rows);
+  const cv::Rect box = SurveyedPart(grey, guess, search_px, 4 * sigma_px);
   if (box.empty()) return SurveyStraightened(grey, guess, search_px);
   cv::Mat smooth;
   cv::GaussianBlur(grey(box), smooth, cv::Size(0, 0), sigma_px);

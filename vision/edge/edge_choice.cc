@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "vision/edge/edge_border.h"
 #include "vision/edge/edge_survey.h"
+#include "vision/image/reduced.h"
 #include "vision/image/robust_statistics.h"
 
 namespace bladecurve {
@@ -107,20 +109,91 @@ void TakeLine(const Survey& survey, const StepLine& line, ChosenTransition& chos
   chosen.points = PointsOn(survey, line, kStiffness);
 }
 
-}  // namespace
-
-ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  const auto [survey, line] = FindBorder(grey, guess, search_px);
+// What a look at the picture, as fine or coarse as it is, takes for the border.
+struct Look {
   ChosenTransition chosen;
+  double stands_out = 0;     // the line's height, times what texture does; positive where the
+                             // outside is brighter
+  double from_guess_px = 0;  // where the line lies on average, positive out of the blade
+  double blur_px = 0;        // of the line's own steps
+};
+
+Look LookAt(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  const auto [survey, line] = FindBorder(grey, guess, search_px);
+  const double height = HeightUnder(survey.map, line);
+  Look look;
+  look.stands_out = height / survey.map.background_response;
+  look.blur_px = BlurUnder(survey.map, line.rows);
+  for (int station = 0; station < survey.map.stations; ++station)
+    look.from_guess_px +=
+        survey.FromGuess(station, line.rows[Index(station)]) / survey.map.stations;
+  ChosenTransition& chosen = look.chosen;
   // Sharper steps than a fall of light at the border are drawn or engraved, not photographed; where
   // it gets brighter outwards the border may lie in a shadow, which would soften it.
-  chosen.blur_px = survey.map.blur_px;
-  if (HeightUnder(survey.map, line) < 0)
-    chosen.blur_px = std::max(chosen.blur_px, BlurUnder(survey.map, line.rows));
+  chosen.blur_px = height < 0 ? std::max(survey.map.blur_px, look.blur_px) : survey.map.blur_px;
   chosen.support = SeenShare(survey, line);
   CompareWithRival(survey, line, search_px, chosen);
   TakeLine(survey, line, chosen);
-  return chosen;
+  return look;
+}
+
+// The same in means over squares of two pixels; px of the picture itself. None where the guess is
+// too short, the search too narrow or the picture too small for that.
+std::optional<Look> LookAtHalf(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  constexpr int kLeastLength = 60;
+  constexpr double kLeastSearch = 6, kMargin = 2, kSmoothing = 3;  // px
+  cv::Rect part = SurveyedPart(grey, guess, search_px, kMargin);
+  part.width -= part.width % 2;
+  part.height -= part.height % 2;
+  if (guess.size() < kLeastLength || search_px < kLeastSearch || part.empty()) return std::nullopt;
+  const Eigen::Vector2d corner(part.x - 0.5, part.y - 0.5), half(0.5, 0.5);
+  std::vector<Eigen::Vector2d> path;
+  for (const Eigen::Vector2d& point : guess.points) path.emplace_back((point - corner) / 2 - half);
+  Look look = LookAt(Reduced(grey(part), part.size() / 2),
+                     SmoothPath(path, guess.blade_on_left, kSmoothing),
+                     search_px / 2);
+  for (auto* line : {&look.chosen.points, &look.chosen.rival}) {
+    for (Eigen::Vector2d& point : *line) point = 2 * (point + half) + corner;
+  }
+  for (auto* distances : {&look.chosen.inner_px, &look.chosen.outer_px}) {
+    for (double& px : *distances) px = std::min(2 * px, kNoTransition);
+  }
+  for (double* px :
+       {&look.chosen.blur_px, &look.chosen.rival_px, &look.from_guess_px, &look.blur_px})
+    *px *= 2;
+  return look;
+}
+
+// Steps that stand out by far and yet look soft along much of the line: no shadow's border need be
+// near, the whole picture may be soft.
+bool IsSoft(const Look& look) {
+  constexpr double kSeen = 0.75, kFar = 5;
+  return look.chosen.support < kSeen && std::abs(look.stands_out) > kFar;
+}
+
+// Light that falls along the finer look's line, going outwards, and rises again along the coarser
+// one's, about as sharply: the line was the ridge of round metal, whose dark flank ends there. A
+// shadow's border would be softer, or the blade's in it seen all along.
+bool FindsTheFlanksEnd(const Look& coarse, const Look& fine) {
+  constexpr double kAsSoft = 1.7;
+  return fine.stands_out < 0 && coarse.stands_out > 0 &&
+         coarse.from_guess_px > fine.from_guess_px && coarse.blur_px < kAsSoft * fine.blur_px;
+}
+
+}  // namespace
+
+ChosenTransition ChooseTransition(const cv::Mat& grey, const EdgePath& guess, double search_px) {
+  constexpr double kMuchMore = 1.15;  // times as much seen; a coarser look shows a little more
+  constexpr double kSamePx = 2;
+  Look look = LookAt(grey, guess, search_px);
+  if (!IsSoft(look)) return look.chosen;
+  const std::optional<Look> coarse = LookAtHalf(grey, guess, search_px);
+  if (!coarse || coarse->chosen.support < kMuchMore * look.chosen.support) return look.chosen;
+  if (std::abs(coarse->from_guess_px - look.from_guess_px) < kSamePx)
+    look.chosen.support = coarse->chosen.support;
+  else if (FindsTheFlanksEnd(*coarse, look))
+    return coarse->chosen;
+  return look.chosen;
 }
 
 ChosenTransition ChooseShadow(const cv::Mat& grey,

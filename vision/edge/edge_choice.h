@@ -27,7 +27,8 @@ inline constexpr double kNoTransition = 1e3;
 
 // The border is the outermost sharp step that can be followed along the path. A shadow's border is
 // soft, or the dark band between it and the blade is wide; bevel lines, glints and ridges lie
-// further in.
+// further in. Where the picture is so soft that hardly any step in it looks sharp, it is looked at
+// in half its resolution as well.
 [[nodiscard]] ChosenTransition ChooseTransition(const cv::Mat& grey,
                                                 const EdgePath& guess,
                                                 double search_px);

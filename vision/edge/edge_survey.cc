@@ -3,6 +3,7 @@
 #include "vision/edge/edge_survey.h"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "vision/image/tone_curve.h"
@@ -59,6 +60,19 @@ EdgePath Thinned(const EdgePath& path, int stride) {
 int StrideFor(const EdgePath& guess) { return 1 + guess.size() / kEnoughToSurvey; }
 
 }  // namespace
+
+cv::Rect SurveyedPart(const cv::Mat& grey,
+                      const EdgePath& guess,
+                      double search_px,
+                      double margin_px) {
+  std::vector<cv::Point2f> points;
+  for (const Eigen::Vector2d& p : guess.points)
+    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  const int reach = static_cast<int>(std::ceil(SurveyReachPx(search_px) + margin_px));
+  const cv::Rect box = cv::boundingRect(points);
+  return cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
+         cv::Rect(0, 0, grey.cols, grey.rows);
+}
 
 std::vector<double> Spread(const std::vector<double>& stations, int spacing, int count) {
   std::vector<double> values;

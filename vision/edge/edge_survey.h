@@ -34,6 +34,12 @@ inline constexpr double kBeyondSearchPx = 10;
 // the end of the search.
 inline double SurveyReachPx(double search_px) { return 2 * search_px + kBeyondSearchPx; }
 
+// The part of the picture that a survey of the guess sees, and margin_px about it; may be empty.
+[[nodiscard]] cv::Rect SurveyedPart(const cv::Mat& grey,
+                                    const EdgePath& guess,
+                                    double search_px,
+                                    double margin_px);
+
 inline constexpr float kForbidden = -1;  // score of a place where the edge cannot be
 
 // The score of every place of the survey's map, as FindBestLine takes it.
