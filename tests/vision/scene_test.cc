@@ -566,6 +566,20 @@ TEST(MeasurePhoto, FindsScissorsWhoseHandlesAreHiddenRightBehindTheJoint) {
   EXPECT_EQ(ReasonFor(under_card), "");
 }
 
+// Edges that may be a shadow's, as far as their softness tells, and handles that are not seen are
+// no two reasons to take them for something else.
+TEST(MeasurePhoto, FindsScissorsOutOfFocusWhoseHandlesAreCutOff) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
+  const double blade_px = photo.truth.upper.end_px.x() - pivot.x();
+  const int behind = static_cast<int>(pivot.x() - 0.12 * blade_px);
+  for (const double blur_px : {2.0, 3.0}) {
+    cv::Mat soft;
+    cv::GaussianBlur(photo.bgr.colRange(behind, photo.bgr.cols), soft, {}, blur_px);
+    EXPECT_EQ(ReasonFor(soft), "") << blur_px;
+  }
+}
+
 // In the sun each blade lies beside its shadow: four limbs.
 TEST(SceneFinder, TakesNoShadowOfABladeForTheOtherBlade) {
   constexpr std::uint64_t kSeed = 12000194;  // gold blades 20 degrees open on wood

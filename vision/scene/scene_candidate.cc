@@ -275,7 +275,7 @@ Rung SeenIn(const cv::Mat& mask,
 Rung SeenWithoutHandles(const Candidate& unresolved,
                         const cv::Mat& hidden,
                         const StoredHints& hints) {
-  constexpr double kDoubtful = 0.7;
+  constexpr double kDoubtful = 0.8;
   std::optional<Vector2d> pivot;
   if (hints.pivot_px) pivot = unresolved.at->SmallFromFull(*hints.pivot_px);
   Rung seen;
