@@ -45,6 +45,22 @@ TEST(CutOut, TakesWhatLiesAboutAPlaceOutOfAPatternUpToThePicturesBorder) {
   EXPECT_EQ(cv::countNonZero(mask.col(0)), 0);
 }
 
+// The cheapest outline rounds off its corners, and would let it end short of the border.
+TEST(CutOut, FollowsALimbOutOfThePictureInItsWholeWidth) {
+  constexpr int kGround = 100, kThing = 180;
+  constexpr double kNoise = 4;
+  for (const int width_px : {7, 13}) {
+    cv::Mat picture(kSize, CV_8UC3, cv::Scalar::all(kGround)), noise(kSize, CV_16SC3), noisy;
+    cv::line(picture, {270, 300}, {390, -60}, cv::Scalar::all(kThing), width_px);
+    cv::line(picture, {90, 120}, {310, 190}, cv::Scalar::all(kThing), 29);
+    cv::GaussianBlur(picture, picture, {}, 1.2);
+    cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
+    cv::add(picture, noise, noisy, cv::noArray(), CV_8U);
+    const cv::Mat mask = CutOut(noisy, PointedAt{{320, 150}, 24});
+    EXPECT_GE(cv::countNonZero(mask.row(0)), width_px);
+  }
+}
+
 TEST(CutOut, TakesPicturesOfAnyShapeAndColour) {
   for (const cv::Size& size : {cv::Size(640, 17), cv::Size(640, 1), cv::Size(9, 300)}) {
     for (const bool noisy : {false, true}) {

@@ -8,11 +8,11 @@
 namespace bladecurve {
 namespace {
 
-// A picture without its border, which stands for the ground.
-cv::Rect WithinBorder(const cv::Size& size) {
+// A picture without its border, which stands for the ground, and without `further_px` more.
+cv::Rect WithinBorder(const cv::Size& size, int further_px = 0) {
   constexpr double kBorder = 0.02;  // of the longest side
   const int wanted_px = cvRound(kBorder * std::max(size.width, size.height));
-  const int px = std::clamp(wanted_px, 1, std::min(size.width, size.height) / 4);
+  const int px = std::clamp(wanted_px + further_px, 1, std::min(size.width, size.height) / 4);
   return {px, px, size.width - 2 * px, size.height - 2 * px};
 }
 
@@ -39,7 +39,8 @@ cv::Mat CutOut(const cv::Mat& bgr, const PointedAt& thing) {
   cv::grabCut(lab, known, {}, of_ground, of_thing, kIterations, cv::GC_INIT_WITH_MASK);
   cv::theRNG() = before;
   const cv::Mat cut = (known & 1) != 0;  // GC_FGD or GC_PR_FGD
-  const cv::Rect within = WithinBorder(bgr.size());
+  constexpr int kRounded = 3;            // px: at the border the cheapest outline rounds things off
+  const cv::Rect within = WithinBorder(bgr.size(), kRounded);
   cv::Mat mask;
   cv::copyMakeBorder(cut(within),
                      mask,
