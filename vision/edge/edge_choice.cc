@@ -140,12 +140,14 @@ Look LookAt(const cv::Mat& grey, const EdgePath& guess, double search_px) {
 // The same in means over squares of two pixels; px of the picture itself. None where the guess is
 // too short, the search too narrow or the picture too small for that.
 std::optional<Look> LookAtHalf(const cv::Mat& grey, const EdgePath& guess, double search_px) {
-  constexpr int kLeastLength = 60;
+  constexpr int kLeastLength = 60, kLeastSide = 16;                // px
   constexpr double kLeastSearch = 6, kMargin = 2, kSmoothing = 3;  // px
   cv::Rect part = SurveyedPart(grey, guess, search_px, kMargin);
   part.width -= part.width % 2;
   part.height -= part.height % 2;
-  if (guess.size() < kLeastLength || search_px < kLeastSearch || part.empty()) return std::nullopt;
+  if (guess.size() < kLeastLength || search_px < kLeastSearch ||
+      std::min(part.width, part.height) < kLeastSide)
+    return std::nullopt;
   const Eigen::Vector2d corner(part.x - 0.5, part.y - 0.5), half(0.5, 0.5);
   std::vector<Eigen::Vector2d> path;
   for (const Eigen::Vector2d& point : guess.points) path.emplace_back((point - corner) / 2 - half);
