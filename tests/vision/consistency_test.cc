@@ -84,8 +84,9 @@ TEST(RefuseInconsistent, AsksForNoPivotThatIsGiven) {
       RefuseInconsistent(jaws, BladesWithRivals(0, 0));
       FAIL() << source;
     } catch (const Refused& refused) {
-      const bool asks = std::string(refused.what()).find("say where") != std::string::npos;
-      EXPECT_EQ(asks, jaws.source == "screw");
+      const std::string what = refused.what();
+      EXPECT_EQ(what.find("say where") != std::string::npos, jaws.source == "screw");
+      EXPECT_NE(what.find("use another background"), std::string::npos) << "edges are not clear";
     }
   }
 }

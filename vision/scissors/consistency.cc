@@ -66,15 +66,13 @@ void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   if (pivot.overlap + pivot.overlap_sigma >= kSlenderestOverlap) return;
   RefuseWhite(blades);
   const std::string detail =
-      std::string(
-          "pivot: the two inner edges meet at the pivot instead of passing by it, like the "
-          "jaws of a clamp, a forceps or a needle holder, which do not cut; if these are "
-          "scissors, ") +
-      (pivot.source == "hint" ? "one edge was taken elsewhere: use another background or light, or "
-                                "check --pivot"
-                              : "say where the screw is: --pivot X,Y");
-  if (AreSurelySeen(pivot, blades)) throw RefusedForGood(Reason::kNotScissors, detail);
-  throw Refused(Reason::kNotScissors, detail);
+      "pivot: the two inner edges meet at the pivot instead of passing by it, like the jaws of a "
+      "clamp, a forceps or a needle holder, which do not cut; if these are scissors, ";
+  const std::string point = "say where the screw is: --pivot X,Y";
+  if (AreSurelySeen(pivot, blades)) throw RefusedForGood(Reason::kNotScissors, detail + point);
+  throw Refused(Reason::kNotScissors,
+                detail + "one edge was taken elsewhere: use another background or light, or " +
+                    (pivot.source == "hint" ? "check --pivot" : point));
 }
 
 // Seen from a known side, about a screw that is seen.
