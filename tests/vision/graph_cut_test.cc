@@ -20,18 +20,24 @@ cv::Mat Bars() {
   return mask;
 }
 
-// Grey, on stripes that are darker and brighter than that, all noisy.
+// With a lens's blur and noise.
+cv::Mat Photographed(const cv::Mat& picture) {
+  constexpr double kBlur = 0.8, kNoise = 4;  // px, grey values
+  cv::Mat photographed, noise(picture.size(), CV_16SC3);
+  cv::GaussianBlur(picture, photographed, {}, kBlur);
+  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
+  cv::add(photographed, noise, photographed, cv::noArray(), CV_8U);
+  return photographed;
+}
+
+// Grey, on stripes that are darker and brighter than that.
 cv::Mat BarsOnStripes() {
   constexpr int kStripePx = 30;
-  constexpr double kNoise = 4;
-  cv::Mat picture(kSize, CV_8UC3, cv::Scalar(40, 60, 110)), noise(kSize, CV_16SC3), noisy;
+  cv::Mat picture(kSize, CV_8UC3, cv::Scalar(40, 60, 110));
   for (int y = 0; y < kSize.height; y += 2 * kStripePx)
     picture.rowRange(y, y + kStripePx) = cv::Scalar(150, 215, 235);
   picture.setTo(cv::Scalar::all(140), Bars());
-  cv::GaussianBlur(picture, picture, {}, 0.8);
-  cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
-  cv::add(picture, noise, noisy, cv::noArray(), CV_8U);
-  return noisy;
+  return Photographed(picture);
 }
 
 double Agreement(const cv::Mat& a, const cv::Mat& b) {
@@ -48,15 +54,11 @@ TEST(CutOut, TakesWhatLiesAboutAPlaceOutOfAPatternUpToThePicturesBorder) {
 // The cheapest outline rounds off its corners, and would let it end short of the border.
 TEST(CutOut, FollowsALimbOutOfThePictureInItsWholeWidth) {
   constexpr int kGround = 100, kThing = 180;
-  constexpr double kNoise = 4;
   for (const int width_px : {7, 13}) {
-    cv::Mat picture(kSize, CV_8UC3, cv::Scalar::all(kGround)), noise(kSize, CV_16SC3), noisy;
+    cv::Mat picture(kSize, CV_8UC3, cv::Scalar::all(kGround));
     cv::line(picture, {270, 300}, {390, -60}, cv::Scalar::all(kThing), width_px);
     cv::line(picture, {90, 120}, {310, 190}, cv::Scalar::all(kThing), 29);
-    cv::GaussianBlur(picture, picture, {}, 1.2);
-    cv::RNG(1).fill(noise, cv::RNG::NORMAL, 0, kNoise);
-    cv::add(picture, noise, noisy, cv::noArray(), CV_8U);
-    const cv::Mat mask = CutOut(noisy, PointedAt{{320, 150}, 24});
+    const cv::Mat mask = CutOut(Photographed(picture), PointedAt{{320, 150}, 24});
     EXPECT_GE(cv::countNonZero(mask.row(0)), width_px);
   }
 }

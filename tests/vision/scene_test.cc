@@ -551,17 +551,22 @@ TEST(SceneFinder, TakesTheWholePairBesideOneWhoseBladesRunOut) {
   EXPECT_EQ(ReasonFor(two), "");
 }
 
+// A column right behind the joint.
+int BehindJoint(const RenderedPhoto& photo) {
+  constexpr double kOfBlade = 0.12;
+  const double pivot = photo.truth.pivot_px.x();
+  return static_cast<int>(pivot - kOfBlade * (photo.truth.upper.end_px.x() - pivot));
+}
+
 // Be it by the frame, or as they lie under a card.
 TEST(MeasurePhoto, FindsScissorsWhoseHandlesAreHiddenRightBehindTheJoint) {
   const RenderedPhoto photo = RenderScene(SmallScene());
-  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
-  const double blade_px = photo.truth.upper.end_px.x() - pivot.x();
-  const int behind = static_cast<int>(pivot.x() - 0.12 * blade_px);
+  const int behind = BehindJoint(photo);
   EXPECT_EQ(ReasonFor(photo.bgr.colRange(behind, photo.bgr.cols).clone()), "");
   constexpr int kCardPx = 240;
   cv::Mat under_card = photo.bgr.clone();
   const cv::Rect card(
-      behind - kCardPx, static_cast<int>(pivot.y()) - kCardPx / 2, kCardPx, kCardPx);
+      behind - kCardPx, static_cast<int>(photo.truth.pivot_px.y()) - kCardPx / 2, kCardPx, kCardPx);
   under_card(card) = cv::Scalar(120, 60, 30);
   EXPECT_EQ(ReasonFor(under_card), "");
 }
@@ -570,9 +575,7 @@ TEST(MeasurePhoto, FindsScissorsWhoseHandlesAreHiddenRightBehindTheJoint) {
 // no two reasons to take them for something else.
 TEST(MeasurePhoto, FindsScissorsOutOfFocusWhoseHandlesAreCutOff) {
   const RenderedPhoto photo = RenderScene(SmallScene());
-  const Eigen::Vector2d& pivot = photo.truth.pivot_px;
-  const double blade_px = photo.truth.upper.end_px.x() - pivot.x();
-  const int behind = static_cast<int>(pivot.x() - 0.12 * blade_px);
+  const int behind = BehindJoint(photo);
   for (const double blur_px : {2.0, 3.0}) {
     cv::Mat soft;
     cv::GaussianBlur(photo.bgr.colRange(behind, photo.bgr.cols), soft, {}, blur_px);

@@ -182,7 +182,7 @@ Survey SurveySmoothed(const cv::Mat& grey,
                       const EdgePath& guess,
                       double search_px,
                       double sigma_px) {
-  const cv::Rect box = SurveyedPart(grey, guess, search_px, 4 * sigma_px);
+  const cv::Rect box = SurveyedPart({{}, grey.size()}, guess.points, search_px, 4 * sigma_px);
   if (box.empty()) return SurveyStraightened(grey, guess, search_px);
   cv::Mat smooth;
   cv::GaussianBlur(grey(box), smooth, cv::Size(0, 0), sigma_px);

@@ -142,20 +142,20 @@ Look LookAt(const cv::Mat& grey, const EdgePath& guess, double search_px) {
 std::optional<Look> LookAtHalf(const cv::Mat& grey, const EdgePath& guess, double search_px) {
   constexpr int kLeastLength = 60, kLeastSide = 16;                // px
   constexpr double kLeastSearch = 6, kMargin = 2, kSmoothing = 3;  // px
-  cv::Rect part = SurveyedPart(grey, guess, search_px, kMargin);
+  cv::Rect part = SurveyedPart({{}, grey.size()}, guess.points, search_px, kMargin);
   part.width -= part.width % 2;
   part.height -= part.height % 2;
   if (guess.size() < kLeastLength || search_px < kLeastSearch ||
       std::min(part.width, part.height) < kLeastSide)
     return std::nullopt;
-  const Eigen::Vector2d corner(part.x - 0.5, part.y - 0.5), half(0.5, 0.5);
+  const Reduction reduction{{part.x, part.y}, 2};
   std::vector<Eigen::Vector2d> path;
-  for (const Eigen::Vector2d& point : guess.points) path.emplace_back((point - corner) / 2 - half);
+  for (const Eigen::Vector2d& point : guess.points) path.push_back(reduction.There(point));
   Look look = LookAt(Reduced(grey(part), part.size() / 2),
                      SmoothPath(path, guess.blade_on_left, kSmoothing),
                      search_px / 2);
   for (auto* line : {&look.chosen.points, &look.chosen.rival}) {
-    for (Eigen::Vector2d& point : *line) point = 2 * (point + half) + corner;
+    for (Eigen::Vector2d& point : *line) point = reduction.Back(point);
   }
   for (auto* distances : {&look.chosen.inner_px, &look.chosen.outer_px}) {
     for (double& px : *distances) px = std::min(2 * px, kNoTransition);

@@ -11,6 +11,7 @@
 #include "vision/edge/edge_path.h"
 #include "vision/edge/edge_survey.h"
 #include "vision/image/pixel_light.h"
+#include "vision/image/reduced.h"
 #include "vision/refused.h"
 
 namespace bladecurve {
@@ -109,58 +110,30 @@ cv::Mat Mixed(const cv::Mat& bgr,
   return mixed;
 }
 
-// The rectangle about the guess that LocateEdge may look at, as far as it lies in `area_px`.
-cv::Rect SurroundingsOf(const EdgeGuess& guess, const cv::Rect& area_px) {
-  Vector2d low = guess.path_px.front(), high = low;
-  for (const Vector2d& p : guess.path_px) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double margin = SurveyReachPx(guess.search_px);
-  const cv::Point corner(static_cast<int>(low.x() - margin), static_cast<int>(low.y() - margin));
-  const cv::Point end(static_cast<int>(high.x() + margin) + 1,
-                      static_cast<int>(high.y() + margin) + 1);
-  return cv::Rect(corner, end) & area_px;
-}
-
 ToneCurve LinearTone(const ToneCurve& original) {
   ToneCurve tone = original;
   for (size_t v = 0; v < tone.linear.size(); ++v) tone.linear[v] = static_cast<float>(v) / 255;
   return tone;
 }
 
-// Places in a picture of one pixel for each factor x factor pixels, and back.
-struct Reduction {
-  Vector2d corner_px;  // of the part of the photograph that was reduced
-  int factor = 1;
-
-  [[nodiscard]] Vector2d There(const Vector2d& px) const {
-    return (px - corner_px - Centre()) / factor;
+// What was located in the reduced picture, in px of the photograph.
+LocatedEdge Back(const Reduction& reduction, LocatedEdge edge) {
+  for (LocatedEdgePoint& p : edge.points) {
+    p.point_px = reduction.Back(p.point_px);
+    p.trend_px = reduction.Back(p.trend_px);
+    p.sigma_px *= reduction.factor;
   }
-  [[nodiscard]] Vector2d Back(const Vector2d& px) const {
-    return corner_px + Centre() + factor * px;
-  }
-  // Of the first pixel.
-  [[nodiscard]] Vector2d Centre() const { return Vector2d::Constant(0.5 * (factor - 1)); }
-
-  [[nodiscard]] LocatedEdge Back(LocatedEdge edge) const {
-    for (LocatedEdgePoint& p : edge.points) {
-      p.point_px = Back(p.point_px);
-      p.trend_px = Back(p.trend_px);
-      p.sigma_px *= factor;
-    }
-    for (Vector2d& p : edge.rival_path_px) p = Back(p);
-    for (double* length_px : {&edge.blur_px,
-                              &edge.correlation_px,
-                              &edge.common_sigma_px,
-                              &edge.rival_sigma_px,
-                              &edge.slope_sigma_px,
-                              &edge.rival_px})
-      *length_px *= factor;
-    edge.unbound_blur_px = std::numeric_limits<double>::quiet_NaN();
-    return edge;
-  }
-};
+  for (Vector2d& p : edge.rival_path_px) p = reduction.Back(p);
+  for (double* length_px : {&edge.blur_px,
+                            &edge.correlation_px,
+                            &edge.common_sigma_px,
+                            &edge.rival_sigma_px,
+                            &edge.slope_sigma_px,
+                            &edge.rival_px})
+    *length_px *= reduction.factor;
+  edge.unbound_blur_px = std::numeric_limits<double>::quiet_NaN();
+  return edge;
+}
 
 LocatedEdge LocateReduced(const ColourView& view, const EdgeGuess& guess, int factor) {
   if (view.grey.empty())
@@ -171,7 +144,7 @@ LocatedEdge LocateReduced(const ColourView& view, const EdgeGuess& guess, int fa
   EdgeGuess reduced = guess;
   for (Vector2d& p : reduced.path_px) p = reduction.There(p);
   reduced.search_px /= factor;
-  return reduction.Back(LocateEdge(grey, view.tone, reduced));
+  return Back(reduction, LocateEdge(grey, view.tone, reduced));
 }
 
 }  // namespace
@@ -188,7 +161,7 @@ ColourView ViewWhereSidesDiffer(const PicturePart& bgr,
   Sides sides = SampleSides(bgr, tone, guess);
   sides.ground.scatter += shade * shade * sides.ground.mean * sides.ground.mean.transpose();
   const Vector3d weights = sides.Scatter().ldlt().solve(sides.ground.mean - sides.blade.mean);
-  const cv::Rect around = SurroundingsOf(guess, bgr.Area());
+  const cv::Rect around = SurveyedPart(bgr.Area(), guess.path_px, guess.search_px);
   ColourView view;
   view.tone = LinearTone(tone);
   view.corner_px = {around.x, around.y};

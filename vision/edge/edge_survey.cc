@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "vision/edge/edge_survey.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "vision/image/tone_curve.h"
@@ -61,17 +61,17 @@ int StrideFor(const EdgePath& guess) { return 1 + guess.size() / kEnoughToSurvey
 
 }  // namespace
 
-cv::Rect SurveyedPart(const cv::Mat& grey,
-                      const EdgePath& guess,
+cv::Rect SurveyedPart(const cv::Rect& area_px,
+                      const std::vector<Eigen::Vector2d>& guess_px,
                       double search_px,
                       double margin_px) {
-  std::vector<cv::Point2f> points;
-  for (const Eigen::Vector2d& p : guess.points)
-    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
-  const int reach = static_cast<int>(std::ceil(SurveyReachPx(search_px) + margin_px));
-  const cv::Rect box = cv::boundingRect(points);
-  return cv::Rect(box.x - reach, box.y - reach, box.width + 2 * reach, box.height + 2 * reach) &
-         cv::Rect(0, 0, grey.cols, grey.rows);
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : guess_px) box.extend(p);
+  const double reach = SurveyReachPx(search_px) + margin_px;
+  const Eigen::Array2d low = box.min().array() - reach, high = box.max().array() + reach;
+  const cv::Point corner(static_cast<int>(low.x()), static_cast<int>(low.y()));
+  const cv::Point end(static_cast<int>(high.x()) + 1, static_cast<int>(high.y()) + 1);
+  return cv::Rect(corner, end) & area_px;
 }
 
 std::vector<double> Spread(const std::vector<double>& stations, int spacing, int count) {

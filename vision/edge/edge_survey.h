@@ -34,11 +34,11 @@ inline constexpr double kBeyondSearchPx = 10;
 // the end of the search.
 inline double SurveyReachPx(double search_px) { return 2 * search_px + kBeyondSearchPx; }
 
-// The part of the picture that a survey of the guess sees, and margin_px about it; may be empty.
-[[nodiscard]] cv::Rect SurveyedPart(const cv::Mat& grey,
-                                    const EdgePath& guess,
+// The part of an area that a survey of the guess sees, and margin_px about it; may be empty.
+[[nodiscard]] cv::Rect SurveyedPart(const cv::Rect& area_px,
+                                    const std::vector<Eigen::Vector2d>& guess_px,
                                     double search_px,
-                                    double margin_px);
+                                    double margin_px = 0);
 
 inline constexpr float kForbidden = -1;  // score of a place where the edge cannot be
 

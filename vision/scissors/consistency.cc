@@ -62,17 +62,21 @@ bool AreSurelySeen(const Pivot& pivot, const Blades& blades) {
          IsClear(blades.lower.edge);
 }
 
+std::string HowToPoint(const Pivot& pivot) {
+  return pivot.source == "hint" ? "check --pivot" : "say where the screw is: --pivot X,Y";
+}
+
 void RefuseJaws(const Pivot& pivot, const Blades& blades) {
   if (pivot.overlap + pivot.overlap_sigma >= kSlenderestOverlap) return;
   RefuseWhite(blades);
   const std::string detail =
       "pivot: the two inner edges meet at the pivot instead of passing by it, like the jaws of a "
       "clamp, a forceps or a needle holder, which do not cut; if these are scissors, ";
-  const std::string point = "say where the screw is: --pivot X,Y";
-  if (AreSurelySeen(pivot, blades)) throw RefusedForGood(Reason::kNotScissors, detail + point);
+  if (AreSurelySeen(pivot, blades))
+    throw RefusedForGood(Reason::kNotScissors, detail + HowToPoint(pivot));
   throw Refused(Reason::kNotScissors,
                 detail + "one edge was taken elsewhere: use another background or light, or " +
-                    (pivot.source == "hint" ? "check --pivot" : point));
+                    HowToPoint(pivot));
 }
 
 // Seen from a known side, about a screw that is seen.
@@ -181,16 +185,14 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
         "picture, does not tell for certain that these are scissors; show the rings as "
         "well, light the screw, or say where it is: --pivot X,Y");
   }
-  throw Refused(
-      Reason::kLowContrast,
-      "edges: shadows or a ground as bright as the blades leave " +
-          std::string(scene.outlined ? "nothing but lines to tell them by"
-                                     : "it in doubt what is blade") +
-          ", and " +
-          (seen ? "these do not mirror each other about the pivot"
-                : "no screw is seen that would confirm where the blades are") +
-          "; use another ground or softer light, or " +
-          (pivot.source == "hint" ? "check --pivot" : "say where the screw is: --pivot X,Y"));
+  throw Refused(Reason::kLowContrast,
+                "edges: shadows or a ground as bright as the blades leave " +
+                    std::string(scene.outlined ? "nothing but lines to tell them by"
+                                               : "it in doubt what is blade") +
+                    ", and " +
+                    (seen ? "these do not mirror each other about the pivot"
+                          : "no screw is seen that would confirm where the blades are") +
+                    "; use another ground or softer light, or " + HowToPoint(pivot));
 }
 
 }  // namespace bladecurve
