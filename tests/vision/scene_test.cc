@@ -922,6 +922,27 @@ TEST(TurnAtJoint, IsThatOfMostMasksOfTheSameBlades) {
   EXPECT_NEAR(TurnAtJoint(ladder), 0, 1e-9);
 }
 
+// One mask of its method that shows something else as well does not outweigh what several show.
+TEST(Choose, CountsTheMasksOfAllMethods) {
+  const auto seen = [](const char* method, double quality, double strength, double aside) {
+    Candidate c = MaskWithTurn(0);
+    c.method = method;
+    c.pair.quality = quality;
+    c.strength = strength;
+    c.agreeing = 1;
+    for (Eigen::Vector2d* place : {&c.pair.pivot, &c.pair.first.tip, &c.pair.second.tip})
+      place->x() += aside;
+    return c;
+  };
+  const Candidate elsewhere = seen("shadow-blind", 0.7, 10, 300);
+  const Candidate likely = seen("regions", 0.65, 6, 0);
+  EXPECT_EQ(Choose({elsewhere, likely}).best.method, "shadow-blind");
+  const Candidate fair = seen("flood", 0.4, 6, 0);
+  EXPECT_EQ(Choose({elsewhere, likely, fair}).best.method, "regions");
+  const Candidate unlikely = seen("flood", 0.2, 6, 0);
+  EXPECT_EQ(Choose({elsewhere, likely, unlikely}).best.method, "shadow-blind");
+}
+
 // The end of a shank of which a card hides the rest tells no direction.
 TEST(TurnAtJoint, IsNoneOfAShankShorterThanTheBlades) {
   constexpr double kTurned = 0.5;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
+#include <ranges>
+#include <utility>
 
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
@@ -16,17 +18,41 @@ namespace bladecurve {
 namespace {
 
 // Likelihood first; among thresholds that see the same blades the one whose contour lies on the
-// strongest transition.
-double Merit(const Candidate& c) {
+// strongest transition. `agreeing`: masks that see them.
+double Merit(const Candidate& c, int agreeing) {
   return Likelihood(c.pair) *
-         std::sqrt(std::min(c.agreeing, 4) * c.strength * SizeOf(c.pair) * c.at->full_px_per_px());
+         std::sqrt(std::min(agreeing, 4) * c.strength * SizeOf(c.pair) * c.at->full_px_per_px());
 }
 
-// What could be accepted first, however many masks agree on what could not.
-bool Better(const Candidate& a, const Candidate& b) {
-  const bool a_usable = a.pair.quality >= kAcceptedQuality;
-  const bool b_usable = b.pair.quality >= kAcceptedQuality;
-  return a_usable != b_usable ? a_usable : Merit(a) > Merit(b);
+// Masks that show the same blades: of the rung that found them, and of others where they are
+// likely.
+int AgreeingInAll(const Candidate& c, const std::vector<Candidate>& candidates) {
+  constexpr double kLikely = 0.3;  // quality
+  const auto agrees = [&](const Candidate& other) {
+    return other.method != c.method && other.pair.quality > kLikely && SameBlades(c, other);
+  };
+  return c.agreeing + static_cast<int>(std::ranges::count_if(candidates, agrees));
+}
+
+// Of some candidates the one of most merit, what could be accepted first, however many masks agree
+// on what could not. nullptr if there is none.
+template <typename Candidates, typename MeritOf>
+const Candidate* BestOf(Candidates&& candidates, const MeritOf& merit) {
+  const auto rank = [&](const Candidate& c) {
+    return std::pair(c.pair.quality >= kAcceptedQuality, merit(c));
+  };
+  const auto best = std::ranges::max_element(candidates, {}, rank);
+  return best == std::ranges::end(candidates) ? nullptr : &*best;
+}
+
+// The blades that all masks together show best, in the mask that shows them best.
+const Candidate* BestOf(const std::vector<Candidate>& candidates) {
+  const Candidate* best = BestOf(
+      candidates, [&](const Candidate& c) { return Merit(c, AgreeingInAll(c, candidates)); });
+  if (best == nullptr) return nullptr;
+  const auto same = [&](const Candidate& c) { return SameBlades(c, *best); };
+  return BestOf(candidates | std::views::filter(same),
+                [](const Candidate& c) { return Merit(c, c.agreeing); });
 }
 
 // How well a mask's contour follows the blades' edges: on a strong transition, and smoothly.
@@ -108,10 +134,7 @@ LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
 
 LadderResult Choose(const std::vector<Candidate>& candidates) {
   LadderResult result;
-  const Candidate* best = nullptr;
-  for (const Candidate& c : candidates) {
-    if (best == nullptr || Better(c, *best)) best = &c;
-  }
+  const Candidate* best = BestOf(candidates);
   if (best == nullptr) return result;
   const Candidate* truest = best;
   for (const Candidate& c : candidates) {

@@ -224,7 +224,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
                           return std::vector{FloodRung(view, *looked->outlines)};
                         }),
                     all);
-  if (ShowsWholeBlades(result) && !full) {
+  if (ShowsWholeBlades(result) && !result.several && !full) {
     log_->Skipped("scene-regions", "the flood left blades dry");
     return result;
   }
