@@ -65,6 +65,23 @@ TEST(OcclusionUpTo, DoesNotTellInAShadowAsDarkAsTheOtherBlade) {
   EXPECT_EQ(Seen(picture, kBevelPx), Occlusion::kUntold);
 }
 
+// The web that joins some blades at the crotch hides the other edge there, but is no bevel, which
+// would go on.
+TEST(OcclusionUpTo, DoesNotTellFromWhatFillsTheCrotch) {
+  constexpr double kBrighter = 12;
+  const SceneSpec spec = SceneWithMarkers();
+  const cv::Vec3d web = cv::Vec3d(RenderScene(spec).bgr.at<cv::Vec3b>(spec.height / 2, 10)) +
+                        cv::Vec3d::all(kBrighter);
+  const auto filled_up_to = [&](double end) {
+    return RetouchedAlongUpperEdge(
+        spec, -kBevelPx, 0, [&](const cv::Vec3d& sheet, double, double share) {
+          return share < end ? web : sheet;
+        });
+  };
+  EXPECT_EQ(Seen(filled_up_to(1), kBevelPx), Occlusion::kHidden);
+  EXPECT_EQ(Seen(filled_up_to(0.2), kBevelPx), Occlusion::kUntold);
+}
+
 // The other blade is the top one: what hides its edge is not this blade.
 TEST(OcclusionUpTo, DoesNotTellWhereTheOtherEdgeIsSeenOnTheBlade) {
   SceneSpec spec = SceneWithMarkers();

@@ -5,9 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "vision/image/cross.h"
+#include "vision/image/nearest_pixel.h"
 #include "vision/image/robust_statistics.h"
 #include "vision/scissors/edge_doubt.h"
 
@@ -70,24 +72,28 @@ Sides* StretchAt(double outside_px, double inner_px, Junction* junction) {
   return std::min(-outside_px, inner_px) > kClearPx ? &junction->band : nullptr;
 }
 
+// ln of light; noise is no less than what is added.
+double LogLight(const BladeView& view, int x, int y) {
+  constexpr double kDark = 0.002;
+  return std::log(kDark + static_cast<double>(view.tone().linear[view.grey().at<uchar>(y, x)]));
+}
+
 Junction JunctionOf(const BladeView& view,
                     const StraightLine& border,
                     const StraightLine& inner,
                     const StraightLine& edge) {
   constexpr double kLeastSine = 0.1;  // between the edges
-  constexpr double kDark = 0.002;     // added to the light: noise is no less
   Junction junction;
   const double sine = std::abs(Cross(border.normal(), edge.normal()));
   if (sine < kLeastSine) return junction;
   const Vector2d center = border.intersection(edge);
   const double width_px = std::max(0.0, inner.signedDistance(center));
   const int reach = static_cast<int>((width_px + kReachPx) / sine + 2 * kReachPx);
-  const cv::Mat& grey = view.grey();
   const cv::Rect about(static_cast<int>(center.x()) - reach,
                        static_cast<int>(center.y()) - reach,
                        2 * reach,
                        2 * reach);
-  const cv::Rect seen = about & cv::Rect(cv::Point(), grey.size());
+  const cv::Rect seen = about & cv::Rect(cv::Point(), view.grey().size());
   for (int y = seen.y; y < seen.br().y; ++y) {
     for (int x = seen.x; x < seen.br().x; ++x) {
       const Vector2d place(x, y);
@@ -96,12 +102,42 @@ Junction JunctionOf(const BladeView& view,
       Sides* const sides =
           StretchAt(border.signedDistance(place), inner.signedDistance(place), &junction);
       if (!sides) continue;
-      const float light = view.tone().linear[grey.at<uchar>(y, x)];
-      (off_px > 0 ? sides->beside : sides->blade)
-          .push_back(std::log(kDark + static_cast<double>(light)));
+      (off_px > 0 ? sides->beside : sides->blade).push_back(LogLight(view, x, y));
     }
   }
   return junction;
+}
+
+// By how much the band, half way along the blade, is brighter than the ground there or at the
+// junction, the darker of both, as either may lie in a shadow; ln of light. Infinity where it is
+// too narrow to tell.
+double ExcessAlongBand(const BladeView& view,
+                       const std::vector<LocatedEdgePoint>& border,
+                       const std::vector<LocatedEdgePoint>& inner,
+                       double at_junction) {
+  constexpr double kFrom = 0.3, kTo = 0.7;  // of the edge
+  constexpr double kBesidePx = 3;
+  constexpr int kPlaces = 40;
+  const cv::Rect picture(cv::Point(), view.grey().size());
+  std::vector<double> band, ground;
+  const auto add = [&](const Vector2d& place, std::vector<double>* light) {
+    const cv::Point at(NearestPixel(place.x()), NearestPixel(place.y()));
+    if (picture.contains(at)) light->push_back(LogLight(view, at.x, at.y));
+  };
+  for (int k = 0; k < kPlaces; ++k) {
+    const double share = kFrom + (kTo - kFrom) * k / kPlaces;
+    const auto at = [&](const std::vector<LocatedEdgePoint>& edge) {
+      return edge[static_cast<std::size_t>(share * static_cast<double>(edge.size()))];
+    };
+    const LocatedEdgePoint outer = at(border);
+    const Vector2d middle = 0.5 * (outer.trend_px + at(inner).trend_px);
+    if (-(middle - outer.trend_px).dot(outer.normal) < kClearPx) continue;
+    add(middle, &band);
+    add(outer.trend_px + kBesidePx * outer.normal, &ground);
+  }
+  const bool is_seen = std::min(band.size(), ground.size()) > kPlaces / 2;
+  if (!is_seen) return std::numeric_limits<double>::infinity();
+  return Median(band) - std::min(Median(ground), at_junction);
 }
 
 }  // namespace
@@ -123,8 +159,12 @@ Occlusion OcclusionUpTo(const BladeView& view,
   const bool is_on_top = within.AreSeen() && std::abs(within.Step() / step) > kOnTop;
   if (left > kSeen) return is_on_top ? Occlusion::kOnTop : Occlusion::kNone;
   if (is_on_top || std::abs(left) > kHidden) return Occlusion::kUntold;
-  const bool brighter = Median(band.beside) > Median(beyond.beside);
-  return brighter ? Occlusion::kHidden : Occlusion::kUntold;
+  // A bevel goes on beside the edge; what fills the crotch does not.
+  constexpr double kGoesOn = 0.25;  // of the excess
+  const double ground = Median(beyond.beside), excess = Median(band.beside) - ground;
+  const bool is_bevel =
+      excess > 0 && ExcessAlongBand(view, border, inner, ground) > kGoesOn * excess;
+  return is_bevel ? Occlusion::kHidden : Occlusion::kUntold;
 }
 
 Occlusion OcclusionBeside(const BladeView& view,
