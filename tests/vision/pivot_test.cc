@@ -9,6 +9,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
+#include <vector>
 
 #include "measured_blades.h"
 #include "vision/pivot/head_search.h"
@@ -278,6 +279,54 @@ TEST(FindPivot, SeesAHalfLitHeadAboutWhichTheEdgesMirrorEachOther) {
   EXPECT_LT((pivot.point_px - measured.truth.pivot_px).norm(), kClosePx);
   const Vector2d aside = head + kAsidePx * Vector2d(-axis.y(), axis.x());
   EXPECT_EQ(FindPivot(WithArcForHead(measured, aside), measured.scale, search).source, "geometry");
+}
+
+// A joint with bright bars across such places, as slots of heads that do not show mirror the light.
+cv::Mat WithBars(const Measured& measured, const std::vector<Vector2d>& middles_px) {
+  constexpr int kFractionBits = 4;
+  constexpr double kFiner = 1 << kFractionBits, kBlurPx = 0.8;
+  const Vector2d half(6, 5);
+  cv::Mat grey = measured.photo.grey().clone();
+  const auto fine = [&](const Vector2d& p) {
+    return cv::Point(cv::Point2d(kFiner * p.x(), kFiner * p.y()));
+  };
+  for (const Vector2d& middle : middles_px)
+    cv::line(grey, fine(middle - half), fine(middle + half), 240, 2, cv::LINE_AA, kFractionBits);
+  cv::GaussianBlur(grey, grey, {}, kBlurPx);
+  return grey;
+}
+
+// Within what a slanted view parts the edges by about a head, there may be one. Of two bars either
+// may be a step at a blade's heel, as what lies further aside is.
+TEST(FindPivot, TakesALoneBrightBarForTheSlotOfAHeadWhereTheBladesTurn) {
+  constexpr double kClosePx = 0.5;
+  SceneSpec spec = SceneWithMarkers();
+  spec.scissors.screw_visible = false;
+  const Measured measured{spec};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  ScaleResult unknown_view = measured.scale;
+  unknown_view.sheet.reset();
+  const Vector2d along = measured.truth.axis_px, across(-along.y(), along.x());
+  const Pivot by_blades = PivotByBlades(unknown_view, measured.scene, edges);
+  const auto off = [&](const Vector2d& direction, double sigmas) {
+    const double sigma_px = std::sqrt(direction.dot(by_blades.covariance_px2 * direction));
+    return (sigmas * sigma_px * direction).eval();
+  };
+  const auto place = [&](double sigmas_along, double sigmas_aside) {
+    return (by_blades.point_px + off(along, sigmas_along) + off(across, sigmas_aside)).eval();
+  };
+  const auto find = [&](const std::vector<Vector2d>& middles_px) {
+    return FindPivot(WithBars(measured, middles_px),
+                     unknown_view,
+                     {measured.scene, edges, std::nullopt, std::nullopt});
+  };
+  const Vector2d slot = place(-1.2, 0.5);
+  const Pivot pivot = find({slot});
+  EXPECT_EQ(pivot.source, "screw");
+  EXPECT_LT((pivot.point_px - slot).norm(), kClosePx);
+  EXPECT_EQ(find({slot, place(0.8, 0.5)}).source, "geometry");
+  EXPECT_EQ(find({place(0, 1.4)}).source, "geometry");
+  EXPECT_EQ(find({place(1.9, 0)}).source, "geometry");
 }
 
 // In an unknown view, aside of the line about which the edges mirror each other.
