@@ -14,6 +14,7 @@
 #include "vision/scene/blades.h"
 #include "vision/scene/catches.h"
 #include "vision/scene/limb_count.h"
+#include "vision/scene/lost_joint.h"
 #include "vision/scene/scene_debug.h"
 #include "vision/scene/scene_ladder.h"
 #include "vision/scene/scene_trace.h"
@@ -108,6 +109,16 @@ double WidthOfMembers(const BladePair& pair) {
   return pair.shank_width * cos_half_opening;
 }
 
+// The pivot of a joint that ends there: about where joints have theirs, anywhere from where the
+// silhouette put it.
+void ExtendJoint(const Vector2d& end_px, Scene* scene) {
+  constexpr double kUsual = 0.45, kSpread = 0.2;  // of the joint, from the shanks' crotch
+  const Vector2d joint_px = scene->crotch_px - end_px;
+  scene->shank_crotch_px = end_px;
+  scene->pivot_px = end_px + kUsual * joint_px;
+  scene->pivot_sigma_px = std::hypot(scene->pivot_sigma_px, kSpread * joint_px.norm());
+}
+
 Scene SceneFrom(const Candidate& found) {
   const BladePair& pair = found.pair;
   const ScaledImage& at = *found.at;
@@ -132,6 +143,7 @@ Scene SceneFrom(const Candidate& found) {
   scene.path_sigma_px = at.full_px_per_px();
   scene.quality = pair.quality;
   scene.outlined = found.outlined;
+  if (const auto end = EndOfLostJoint(found)) ExtendJoint(at.FullFromSmall(*end), &scene);
   return scene;
 }
 
