@@ -24,14 +24,12 @@ EdgePair UnlikeEdges() {
   return edges;
 }
 
-// A head of unusual size, where the blades alone put the pivot so many standard deviations off.
-bool IsSure(bool slotted, double sigmas_off) {
-  constexpr double kSigmaPx = 10;
+Screw HeadThere(double evidence, bool slotted) {
   Screw screw{};
   screw.center_px = kTrustedHead;
   screw.covariance_px2 = 0.01 * Eigen::Matrix2d::Identity();
   screw.semi_major_px = screw.semi_minor_px = 30;
-  screw.evidence = 0.5 * (kFaintHead + kUnmistakable);
+  screw.evidence = evidence;
   screw.third_support = 0.5;
   if (slotted) {
     screw.slot.emplace();
@@ -39,6 +37,38 @@ bool IsSure(bool slotted, double sigmas_off) {
     screw.slot->covariance_px2 = screw.covariance_px2;
     screw.slot->ends_seen = true;
   }
+  return screw;
+}
+
+// A faint head, as far from where the blades put the pivot as an edge that is wrong puts it, and so
+// far across from where the silhouette does.
+bool IsCredibleFaint(bool slotted, double off_silhouette_px) {
+  ScaleResult scale;
+  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+  Scene scene;
+  scene.shank_width_px = 50;
+  scene.crotch_px = kTrustedHead + Vector2d(80, 0);
+  scene.shank_crotch_px = kTrustedHead - Vector2d(80, 0);
+  scene.pivot_px = kTrustedHead + Vector2d(10, off_silhouette_px);
+  scene.pivot_sigma_px = 15;
+  const PlacePx by_geometry{kTrustedHead + Vector2d(10, 40),
+                            Vector2d(15 * 15, 5 * 5).asDiagonal().toDenseMatrix()};
+  const EdgePair edges = UnlikeEdges();
+  const HeadSearch known{cv::Mat(), scale, scene, edges, by_geometry, std::nullopt};
+  return IsCredibleThere(HeadThere(4.5, slotted), known);
+}
+
+TEST(IsCredibleThere, AsksTheSilhouetteWhereAnEdgeMayBeWrong) {
+  EXPECT_TRUE(IsCredibleFaint(true, 0));
+  EXPECT_TRUE(IsCredibleFaint(true, 5));
+  EXPECT_FALSE(IsCredibleFaint(true, 20));
+  EXPECT_FALSE(IsCredibleFaint(false, 0)) << "arcs lie there as well";
+}
+
+// A head of unusual size, where the blades alone put the pivot so many standard deviations off.
+bool IsSure(bool slotted, double sigmas_off) {
+  constexpr double kSigmaPx = 10;
+  const Screw screw = HeadThere(0.5 * (kFaintHead + kUnmistakable), slotted);
   ScaleResult scale;
   scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
   Scene scene;

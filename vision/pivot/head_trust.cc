@@ -21,13 +21,26 @@ constexpr double kFaint = 5;      // evidence of a head that something else must
 // With a bar from end to end of it.
 bool IsSlotted(const Screw& screw) { return screw.slot && screw.slot->ends_seen; }
 
+// Chi-square of a place against where the silhouette alone puts the pivot, whichever line the edges
+// were taken for.
+double OffSilhouette(const Vector2d& place_px, const HeadSearch& known) {
+  constexpr double kOfWidth = 0.1;  // of the members, standard
+  const Scene& scene = known.scene;
+  const Vector2d axis = (scene.crotch_px - scene.shank_crotch_px).normalized();
+  return ChiSquare(
+      place_px - scene.pivot_px,
+      AlongAcross(axis, scene.pivot_sigma_px, std::max(1.0, kOfWidth * scene.shank_width_px)));
+}
+
 // ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
 // pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
+// An edge may be wrong, and with it the line about which the two mirror each other.
 double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
-  constexpr double kSlotted = 3;
+  constexpr double kSlotted = 3, kEdgeWrong = 2;
   const PlacePx& place = known.by_geometry;
-  return screw.evidence + (IsSlotted(screw) ? kSlotted : 0) -
-         0.5 * ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
+  const double off = std::min(ChiSquare(screw.center_px - place.point_px, place.covariance_px2),
+                              OffSilhouette(screw.center_px, known) + 2 * kEdgeWrong);
+  return screw.evidence + (IsSlotted(screw) ? kSlotted : 0) - 0.5 * off;
 }
 
 // What the edges say of a place: see EdgeAsymmetry.
