@@ -322,7 +322,8 @@ TEST(FindPivot, TakesALoneBrightBarForTheSlotOfAHeadWhereTheBladesTurn) {
   };
   const Vector2d slot = place(-1.2, 0.5);
   const Pivot pivot = find({slot});
-  EXPECT_EQ(pivot.source, "screw");
+  ASSERT_TRUE(pivot.screw);
+  EXPECT_TRUE(IsFaint(*pivot.screw)) << "it may be something else";
   EXPECT_LT((pivot.point_px - slot).norm(), kClosePx);
   EXPECT_EQ(find({slot, place(0.8, 0.5)}).source, "geometry");
   EXPECT_EQ(find({place(0, 1.4)}).source, "geometry");

@@ -201,6 +201,7 @@ std::optional<Screw> LookForSlot(const HeadSearch& known) {
   }
   if (nearest || bright.empty() || !ShareCentre(bright)) return nearest;
   nearest = bright.front();
+  nearest->slot->alone = true;
   nearest->covariance_px2 +=
       std::pow(kAside * nearest->semi_major_px, 2) * Eigen::Matrix2d::Identity();
   return nearest;

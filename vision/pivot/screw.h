@@ -18,6 +18,7 @@ struct ScrewSlot {
   Eigen::Matrix2d covariance_px2;  // much larger along the slot than across it
   bool ends_seen = false;          // both, at the rim
   bool bright = false;             // mirrors the light, as borders of nuts and streaks may
+  bool alone = false;  // no rim shows about it, nor do the edges quite mirror each other
 };
 
 // How far off the centre slots are cut, standard, of the head's radius: across, and along, where
@@ -42,9 +43,9 @@ struct Screw {
 // of one that shadows and facets of joints do not reach; and below which nothing is a head.
 inline constexpr double kUnmistakable = 25, kBeyondDoubt = 15, kFaintHead = 10, kFaintestHead = 3.5;
 
-// Whether it may be one of those: they show no slot.
+// Whether it may be one of those: they show no slot, or what may be one and nothing else.
 [[nodiscard]] inline bool IsFaint(const Screw& screw) {
-  return screw.evidence < kFaintHead && !screw.slot;
+  return screw.evidence < kFaintHead && (!screw.slot || screw.slot->alone);
 }
 
 // Whether so much of the rim looks otherwise than the rest that a reflection within the head may
