@@ -161,10 +161,9 @@ void PlacePivot(const cv::Mat& filled, BladePair* pair) {
   const double length = overlap.norm(), middle = 0.5 * length, waist = (mean - back).dot(axis);
   const double sigma =
       std::max({0.1 * narrowest, 0.07 * length, std::sqrt(spread / sum), std::abs(waist - middle)});
-  // Before any waist is seen: Mayo, Metzenbaum and iris scissors have their screw there.
-  constexpr double kUsual = 0.45, kUsualSpread = 0.13;
+  constexpr double kUsualSpread = 0.13;  // before any waist is seen
   const double of_waist = 1 / (sigma * sigma), of_usual = std::pow(kUsualSpread * length, -2);
-  const double along = (of_waist * waist + of_usual * kUsual * length) / (of_waist + of_usual);
+  const double along = (of_waist * waist + of_usual * kUsualPivot * length) / (of_waist + of_usual);
   pair->pivot = mean + (along - waist) * axis;
   pair->pivot_sigma = 1 / std::sqrt(of_waist + of_usual);
 }

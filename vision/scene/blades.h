@@ -28,6 +28,10 @@ struct BladePair {
   std::string doubt;       // what lowered the quality most
 };
 
+// Where Mayo, Metzenbaum and iris scissors have their screw, of the way from the shanks' crotch to
+// the blades'.
+inline constexpr double kUsualPivot = 0.45;
+
 // Falls from 1 at `good` to 0 at `bad`.
 [[nodiscard]] double Grade(double value, double good, double bad);
 

@@ -109,13 +109,12 @@ double WidthOfMembers(const BladePair& pair) {
   return pair.shank_width * cos_half_opening;
 }
 
-// The pivot of a joint that ends there: about where joints have theirs, anywhere from where the
-// silhouette put it.
+// For a joint that goes on to `end_px`: how far is known to a quarter.
 void ExtendJoint(const Vector2d& end_px, Scene* scene) {
-  constexpr double kUsual = 0.45, kSpread = 0.2;  // of the joint, from the shanks' crotch
+  constexpr double kSpread = 0.2;  // of the joint
   const Vector2d joint_px = scene->crotch_px - end_px;
   scene->shank_crotch_px = end_px;
-  scene->pivot_px = end_px + kUsual * joint_px;
+  scene->pivot_px = end_px + kUsualPivot * joint_px;
   scene->pivot_sigma_px = std::hypot(scene->pivot_sigma_px, kSpread * joint_px.norm());
 }
 
