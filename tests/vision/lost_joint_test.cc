@@ -92,7 +92,7 @@ TEST(EndOfLostJoint, IsWhereMembersAsWideAsTheBladesHaveCrossed) {
     const double crossing = 12 / std::sin(half_opening);
     EXPECT_FALSE(EndOfLostJoint(PairWithJoint(half_opening, 12, 2 * crossing)));
     EXPECT_FALSE(EndOfLostJoint(PairWithJoint(half_opening, 12, 1.4 * crossing)));
-    const Candidate lost = PairWithJoint(half_opening, 12, 0.9 * crossing);
+    const Candidate lost = PairWithJoint(half_opening, 12, 0.8 * crossing);
     const auto end = EndOfLostJoint(lost);
     ASSERT_TRUE(end) << half_opening;
     EXPECT_GT((*end - lost.pair.crotch).norm(), 1.4 * crossing);

@@ -34,12 +34,14 @@ double OffSilhouette(const Vector2d& place_px, const HeadSearch& known) {
 
 // ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
 // pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
-// An edge may be wrong, and with it the line about which the two mirror each other.
+// An edge may be wrong, and with it the line about which the two mirror each other, which only a
+// known view tells.
 double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
   constexpr double kSlotted = 3, kEdgeWrong = 2;
   const PlacePx& place = known.by_geometry;
-  const double off = std::min(ChiSquare(screw.center_px - place.point_px, place.covariance_px2),
-                              OffSilhouette(screw.center_px, known) + 2 * kEdgeWrong);
+  double off = ChiSquare(screw.center_px - place.point_px, place.covariance_px2);
+  if (!known.scale.sheet)
+    off = std::min(off, OffSilhouette(screw.center_px, known) + 2 * kEdgeWrong);
   return screw.evidence + (IsSlotted(screw) ? kSlotted : 0) - 0.5 * off;
 }
 

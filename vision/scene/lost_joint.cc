@@ -129,7 +129,7 @@ double CrossingLength(const BladePair& pair) {
 std::optional<Vector2d> EndOfLostJoint(const Candidate& found) {
   // Of the crossing's length. Members are wider than blades half way to their tips: of scissors of
   // which nothing is lost, photographed or rendered, 95 % have 1.4 and more, half have 2.
-  constexpr double kLost = 1.3, kUsual = 2;
+  constexpr double kLost = 0.9, kUsual = 2;
   const BladePair& pair = found.pair;
   if (!pair.shank_crotch) return std::nullopt;
   const Vector2d joint = *pair.shank_crotch - pair.crotch;

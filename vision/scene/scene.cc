@@ -109,13 +109,16 @@ double WidthOfMembers(const BladePair& pair) {
   return pair.shank_width * cos_half_opening;
 }
 
-// For a joint that goes on to `end_px`: how far is known to a quarter.
+// For a joint that goes on to `end_px`: the pivot is where joints that long have it, and may yet be
+// where the silhouette put it.
 void ExtendJoint(const Vector2d& end_px, Scene* scene) {
   constexpr double kSpread = 0.2;  // of the joint
-  const Vector2d joint_px = scene->crotch_px - end_px;
+  const Vector2d joint_px = scene->crotch_px - end_px, before_px = scene->pivot_px;
   scene->shank_crotch_px = end_px;
   scene->pivot_px = end_px + kUsualPivot * joint_px;
-  scene->pivot_sigma_px = std::hypot(scene->pivot_sigma_px, kSpread * joint_px.norm());
+  scene->pivot_sigma_px =
+      std::hypot(scene->pivot_sigma_px,
+                 std::max(kSpread * joint_px.norm(), 0.5 * (scene->pivot_px - before_px).norm()));
 }
 
 Scene SceneFrom(const Candidate& found) {
