@@ -78,7 +78,7 @@ class HeldModel {
   std::size_t tick_ = 0;
 };
 
-double Percentile(const std::vector<double>& ascending, double share) {
+double AtShare(const std::vector<double>& ascending, double share) {
   const double place = share * static_cast<double>(ascending.size());
   return ascending[std::min(static_cast<std::size_t>(place), ascending.size() - 1)];
 }
@@ -86,9 +86,9 @@ double Percentile(const std::vector<double>& ascending, double share) {
 std::string PercentileLine(const char* name, const std::vector<double>& ascending) {
   return fmt::format("  {:<15} p50 {:.4g}, p99 {:.4g}, p99.9 {:.4g}, max {:.4g} us\n",
                      name,
-                     Percentile(ascending, 0.5),
-                     Percentile(ascending, 0.99),
-                     Percentile(ascending, 0.999),
+                     AtShare(ascending, 0.5),
+                     AtShare(ascending, 0.99),
+                     AtShare(ascending, 0.999),
                      ascending.back());
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,20 @@ TEST(Percentile, IsTheSmallestValueThatEnoughDoNotExceed) {
   EXPECT_EQ(Percentile({7}, 0.01), 7);
   EXPECT_EQ(Percentile({std::nan(""), 5}, 1), 5);
   EXPECT_TRUE(std::isnan(Percentile({}, 0.5)));
+}
+
+// In whatever order the scenes come; sources that are compiled as one must not lend each other
+// theirs.
+TEST(ValidationTable, GivesTheMedianAndTheLargestOfTheErrors) {
+  const std::vector<ValidationRow> rows = {
+      Measured(0, 4, 1), Measured(1, 1, 1), Measured(2, 3, 1), Measured(3, 2, 1)};
+  std::istringstream line(LineOf(ValidationTable(rows, false), "theta"));
+  std::string name, unit;
+  double median = 0, most = 0, largest = 0;
+  line >> name >> unit >> median >> most >> largest;
+  EXPECT_EQ(median, 2);
+  EXPECT_EQ(most, 4);
+  EXPECT_EQ(largest, 4);
 }
 
 TEST(ValidationTable, CountsAnIntervalAsHeldUpTo196Sigma) {
