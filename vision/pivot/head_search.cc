@@ -173,38 +173,38 @@ bool ShowsRim(const Screw& slotted, const HeadSearch& known) {
   return FindHere(known, search).has_value();
 }
 
-// Whether all the bars run through one place.
-bool ShareCentre(const std::vector<Screw>& heads) {
-  return std::all_of(heads.begin(), heads.end(), [&](const Screw& head) {
-    return (head.center_px - heads.front().center_px).norm() < 0.5 * heads.front().semi_major_px;
-  });
+// The bright bar near where the blades put the pivot, where a slanted view may part the edges, if
+// all that lie near there run through one place.
+std::optional<Screw> LoneBrightBar(const std::vector<Screw>& bars, const HeadSearch& known) {
+  constexpr double kSigmas = 1.7, kApart = 0.5;  // of a radius
+  std::optional<Screw> lone;
+  for (const Screw& bar : bars) {
+    if (!bar.slot->bright || !LiesWhereBladesTurn(bar, known, kSigmas) || !MayPassAlike(bar, known))
+      continue;
+    if (!lone) lone = bar;
+    if ((bar.center_px - lone->center_px).norm() >= kApart * lone->semi_major_px)
+      return std::nullopt;
+  }
+  if (lone) lone->slot->alone = true;
+  return lone;
 }
 
 // A head by its slot alone, where the blades put the pivot and about which the edges mirror each
-// other; the nearest to there. About one that mirrors the light its rim must show, or, where a
-// slanted view may part the edges, no other bar lie near there.
+// other; the nearest to there. About one that mirrors the light its rim must show, or no other lie
+// near there.
 std::optional<Screw> LookForSlot(const HeadSearch& known) {
-  constexpr double kSigmas = 1.7;
-  constexpr double kAside = 0.1;  // of the radius, standard
+  const std::vector<Screw> heads =
+      FindSlottedHeads(known.grey, known.scale.tone, SearchAllAbout(known.scale, known.scene, 0));
   const auto off = [&](const Screw& screw) {
     return (screw.center_px - known.by_geometry.point_px).norm();
   };
   std::optional<Screw> nearest;
-  std::vector<Screw> bright;
-  for (const Screw& head : FindSlottedHeads(
-           known.grey, known.scale.tone, SearchAllAbout(known.scale, known.scene, 0))) {
-    if (head.slot->bright && LiesWhereBladesTurn(head, known, kSigmas) && MayPassAlike(head, known))
-      bright.push_back(head);
+  for (const Screw& head : heads) {
     if (!LiesWhereBladesTurn(head, known) || !MirrorNear(head, known)) continue;
     if (nearest && off(head) >= off(*nearest)) continue;
     if (!head.slot->bright || ShowsRim(head, known)) nearest = head;
   }
-  if (nearest || bright.empty() || !ShareCentre(bright)) return nearest;
-  nearest = bright.front();
-  nearest->slot->alone = true;
-  nearest->covariance_px2 +=
-      std::pow(kAside * nearest->semi_major_px, 2) * Eigen::Matrix2d::Identity();
-  return nearest;
+  return nearest ? nearest : LoneBrightBar(heads, known);
 }
 
 // Three discs along the overlap instead of one all about it: in each, a head is judged by its own

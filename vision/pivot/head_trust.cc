@@ -34,8 +34,8 @@ double OffSilhouette(const Vector2d& place_px, const HeadSearch& known) {
 
 // ln of the odds of a head, as its rim, a slot and the place tell where the blades alone put the
 // pivot: true heads keep to 3 standard deviations of that, arcs that look like heads lie anywhere.
-// An edge may be wrong, and with it the line about which the two mirror each other, which only a
-// known view tells.
+// In a view that is not known an edge may be wrong, and with it the line about which the two mirror
+// each other: the silhouette's place counts as well, for less.
 double OddsAtPlace(const Screw& screw, const HeadSearch& known) {
   constexpr double kSlotted = 3, kEdgeWrong = 2;
   const PlacePx& place = known.by_geometry;

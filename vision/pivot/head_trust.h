@@ -24,8 +24,8 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // but hardly so much about what is too flat for a head.
 [[nodiscard]] bool MayMirrorAbout(const Screw& screw, const HeadSearch& known);
 
-// Whether the edges pass by it as nearly alike as by a head in a view that is not known; a step at
-// a blade's heel lies on one of the blades.
+// Whether the edges pass by it as nearly alike as by a head in a view that is not known, of a scene
+// that is in no doubt; a step at a blade's heel lies on one of the blades.
 [[nodiscard]] bool MayPassAlike(const Screw& screw, const HeadSearch& known);
 
 // Whether it lies where the blades alone put the pivot, by so many standard uncertainties.

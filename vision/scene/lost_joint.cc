@@ -19,15 +19,6 @@ namespace {
 using Colour = Eigen::Vector3d;
 using Eigen::Vector2d;
 
-Colour ColourAt(const cv::Mat& image, const Vector2d& place) {
-  const int x = std::clamp(NearestPixel(place.x()), 0, image.cols - 1);
-  const int y = std::clamp(NearestPixel(place.y()), 0, image.rows - 1);
-  Colour colour = Colour::Zero();
-  for (int c = 0; c < image.channels(); ++c)
-    colour[c] = static_cast<double>(image.ptr<float>(y)[x * image.channels() + c]);
-  return colour;
-}
-
 // Mean over the middle half of the gap across a place in it, the one shank as far as the other
 // where that has been lost.
 Colour ColourOfGap(const Candidate& found, const Vector2d& place, const Vector2d& across) {
@@ -45,7 +36,7 @@ Colour ColourOfGap(const Candidate& found, const Vector2d& place, const Vector2d
   Colour sum = Colour::Zero();
   int count = 0;
   for (double d = middle - half; d <= middle + half; d += 1, ++count)
-    sum += ColourAt(found.at->pixels, place + d * across);
+    sum += found.at->ColourAt(place + d * across);
   return sum / std::max(1, count);
 }
 

@@ -30,25 +30,17 @@ constexpr double kSharpReach = 1.5;  // px of the small picture: all of a sharp 
 
 // Median difference between `reach` px on both sides of a path that is moved `aside` px to one
 // side, in the units of the image.
-double TransitionAcross(const cv::Mat& image,
+double TransitionAcross(const ScaledImage& image,
                         const std::vector<Vector2d>& path,
                         double reach,
                         double aside = 0) {
   std::vector<double> steps;
-  const auto value = [&](const Vector2d& p, int c) {
-    const int x = std::clamp(NearestPixel(p.x()), 0, image.cols - 1);
-    const int y = std::clamp(NearestPixel(p.y()), 0, image.rows - 1);
-    return static_cast<double>(image.ptr<float>(y)[x * image.channels() + c]);
-  };
   for (std::size_t i = 3; i + 3 < path.size(); i += 2) {
     const Vector2d along = (path[i + 3] - path[i - 3]).normalized();
     const Vector2d across(along.y(), -along.x());
     const Vector2d here = path[i] + (aside + reach) * across;
     const Vector2d there = path[i] + (aside - reach) * across;
-    double squared = 0;
-    for (int c = 0; c < image.channels(); ++c)
-      squared += std::pow(value(here, c) - value(there, c), 2);
-    steps.push_back(std::sqrt(squared));
+    steps.push_back((image.ColourAt(here) - image.ColourAt(there)).norm());
   }
   return steps.empty() ? 0 : Median(steps);
 }
@@ -59,7 +51,7 @@ constexpr double kSoft = 0.25, kSharp = 0.4;
 // How much of the transition across a contour is that of one sharp line. Beside a soft shadow, or
 // on texture, a blade's contour may run a little off its edge; a sharp line there counts for less,
 // as it may be another one.
-double SharpnessOf(const cv::Mat& image, const std::vector<Vector2d>& path, double near) {
+double SharpnessOf(const ScaledImage& image, const std::vector<Vector2d>& path, double near) {
   constexpr double kSoftReach = 5;  // px of the small picture: most of a soft shadow's transition
   constexpr double kMostAside = 4;
   constexpr double kSharpBeside = 0.5,
@@ -75,7 +67,7 @@ double SharpnessOf(const cv::Mat& image, const std::vector<Vector2d>& path, doub
 // Fills in strength and sharpness. Of the two inner edges the weaker and the softer counts: a
 // shadow that passes for a blade has a soft border.
 void JudgeEdges(const BladePair& pair, Candidate* candidate) {
-  const cv::Mat& image = candidate->at->pixels;
+  const ScaledImage& image = *candidate->at;
   candidate->strength = std::numeric_limits<double>::infinity();
   candidate->sharpness = std::numeric_limits<double>::infinity();
   for (const BladeContour* blade : {&pair.first, &pair.second}) {
@@ -121,7 +113,7 @@ const T& PlaceAlong(const std::vector<T>& path, double share) {
 std::vector<double> LightnessAt(const cv::Mat& image, const std::vector<Vector2d>& places) {
   std::vector<double> lightness;
   for (const Vector2d& p : places) {
-    const cv::Point at(NearestPixel(p.x()), NearestPixel(p.y()));
+    const cv::Point at = NearestPixel(p);
     if (at.x < 0 || at.y < 0 || at.x >= image.cols || at.y >= image.rows) continue;
     lightness.push_back(image.ptr<float>(at.y)[at.x * image.channels()]);
   }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/image/nearest_pixel.h"
 #include "vision/photo/photo.h"
 #include "vision/scale/scale.h"
 #include "vision/scene/scene.h"
@@ -18,6 +20,15 @@ struct ScaledImage {
   cv::Mat pixels;    // CV_32FC1 (lightness, 0 to 100) or CV_32FC3 (Lab)
   cv::Rect area_px;  // of the photograph
 
+  // Lab, or lightness and zeros, of the nearest pixel; the border repeats.
+  [[nodiscard]] Eigen::Vector3d ColourAt(const Eigen::Vector2d& p) const {
+    const cv::Point nearest = NearestPixel(p);
+    const int x = std::clamp(nearest.x, 0, pixels.cols - 1);
+    const float* pixel =
+        pixels.ptr<float>(std::clamp(nearest.y, 0, pixels.rows - 1)) + x * pixels.channels();
+    if (pixels.channels() == 1) return {*pixel, 0, 0};
+    return {pixel[0], pixel[1], pixel[2]};
+  }
   [[nodiscard]] double full_px_per_px() const {
     return static_cast<double>(area_px.width) / pixels.cols;
   }

@@ -73,9 +73,9 @@ Sides* StretchAt(double outside_px, double inner_px, Junction* junction) {
 }
 
 // ln of light; noise is no less than what is added.
-double LogLight(const BladeView& view, int x, int y) {
+double LogLight(const BladeView& view, const cv::Point& at) {
   constexpr double kDark = 0.002;
-  return std::log(kDark + static_cast<double>(view.tone().linear[view.grey().at<uchar>(y, x)]));
+  return std::log(kDark + static_cast<double>(view.tone().linear[view.grey().at<uchar>(at)]));
 }
 
 Junction JunctionOf(const BladeView& view,
@@ -102,7 +102,7 @@ Junction JunctionOf(const BladeView& view,
       Sides* const sides =
           StretchAt(border.signedDistance(place), inner.signedDistance(place), &junction);
       if (!sides) continue;
-      (off_px > 0 ? sides->beside : sides->blade).push_back(LogLight(view, x, y));
+      (off_px > 0 ? sides->beside : sides->blade).push_back(LogLight(view, {x, y}));
     }
   }
   return junction;
@@ -121,8 +121,8 @@ double ExcessAlongBand(const BladeView& view,
   const cv::Rect picture(cv::Point(), view.grey().size());
   std::vector<double> band, ground;
   const auto add = [&](const Vector2d& place, std::vector<double>* light) {
-    const cv::Point at(NearestPixel(place.x()), NearestPixel(place.y()));
-    if (picture.contains(at)) light->push_back(LogLight(view, at.x, at.y));
+    const cv::Point at = NearestPixel(place);
+    if (picture.contains(at)) light->push_back(LogLight(view, at));
   };
   for (int k = 0; k < kPlaces; ++k) {
     const double share = kFrom + (kTo - kFrom) * k / kPlaces;
@@ -131,7 +131,7 @@ double ExcessAlongBand(const BladeView& view,
     };
     const LocatedEdgePoint outer = at(border);
     const Vector2d middle = 0.5 * (outer.trend_px + at(inner).trend_px);
-    if (-(middle - outer.trend_px).dot(outer.normal) < kClearPx) continue;
+    if ((outer.trend_px - middle).dot(outer.normal) < kClearPx) continue;
     add(middle, &band);
     add(outer.trend_px + kBesidePx * outer.normal, &ground);
   }
@@ -149,6 +149,7 @@ Occlusion OcclusionUpTo(const BladeView& view,
   constexpr double kShows = 0.3;                // ln of light
   constexpr double kHidden = 0.3, kSeen = 0.6;  // of the edge's step
   constexpr double kOnTop = 0.5;
+  constexpr double kGoesOn = 0.25;  // of what the band is brighter by at the junction
   if (border.empty() || inner.empty() || other.empty()) return Occlusion::kUntold;
   const auto [beyond, band, within] =
       JunctionOf(view, LineNearCrotch(border), LineNearCrotch(inner), LineNearCrotch(other));
@@ -160,7 +161,6 @@ Occlusion OcclusionUpTo(const BladeView& view,
   if (left > kSeen) return is_on_top ? Occlusion::kOnTop : Occlusion::kNone;
   if (is_on_top || std::abs(left) > kHidden) return Occlusion::kUntold;
   // A bevel goes on beside the edge; what fills the crotch does not.
-  constexpr double kGoesOn = 0.25;  // of the excess
   const double ground = Median(beyond.beside), excess = Median(band.beside) - ground;
   const bool is_bevel =
       excess > 0 && ExcessAlongBand(view, border, inner, ground) > kGoesOn * excess;
