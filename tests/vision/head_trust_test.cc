@@ -65,6 +65,36 @@ TEST(IsCredibleThere, AsksTheSilhouetteWhereAnEdgeMayBeWrong) {
   EXPECT_FALSE(IsCredibleFaint(false, 0)) << "arcs lie there as well";
 }
 
+// What little shows of a head, along the joint so many px from where the blades put the pivot, and
+// from where the silhouette does, both known to 10 px.
+bool LiesFarFromBoth(double off_blades_px,
+                     double off_silhouette_px,
+                     double evidence = 8,
+                     bool slotted = false) {
+  constexpr double kSigmaPx = 10;
+  ScaleResult scale;
+  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+  Scene scene;
+  scene.shank_width_px = 50;
+  scene.crotch_px = kTrustedHead + Vector2d(80, 0);
+  scene.shank_crotch_px = kTrustedHead - Vector2d(80, 0);
+  scene.pivot_px = kTrustedHead + Vector2d(off_silhouette_px, 0);
+  scene.pivot_sigma_px = kSigmaPx;
+  const PlacePx by_geometry{kTrustedHead + Vector2d(off_blades_px, 0),
+                            kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity()};
+  const EdgePair edges;
+  return LiesAstray(HeadThere(evidence, slotted),
+                    {cv::Mat(), scale, scene, edges, by_geometry, std::nullopt});
+}
+
+TEST(LiesAstray, FarFromWhereBladesAndSilhouettePutThePivot) {
+  EXPECT_TRUE(LiesFarFromBoth(30, 30));
+  EXPECT_FALSE(LiesFarFromBoth(30, 10)) << "an edge may be wrong";
+  EXPECT_FALSE(LiesFarFromBoth(10, 30)) << "so may the silhouette";
+  EXPECT_FALSE(LiesFarFromBoth(30, 30, kUnmistakable)) << "all of it shows";
+  EXPECT_FALSE(LiesFarFromBoth(30, 30, 8, true)) << "the slot shows";
+}
+
 // A head of unusual size, where the blades alone put the pivot so many standard deviations off.
 bool IsSure(bool slotted, double sigmas_off) {
   constexpr double kSigmaPx = 10;

@@ -131,7 +131,8 @@ std::optional<Screw> Find(const cv::Mat& grey,
 }
 
 std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search) {
-  return Find(known.grey, known.scale, known.scene, search);
+  const std::optional<Screw> screw = Find(known.grey, known.scale, known.scene, search);
+  return screw && LiesAstray(*screw, known) ? std::nullopt : screw;
 }
 
 // What is seen in each of the searches, side by side.

@@ -71,6 +71,13 @@ bool IsCredibleThere(const Screw& screw, const HeadSearch& known) {
   return screw.evidence > kFaintHead || known.scale.sheet || OddsAtPlace(screw, known) > kLeastOdds;
 }
 
+bool LiesAstray(const Screw& screw, const HeadSearch& known) {
+  constexpr double kFar = 5;  // chi-square; of 400 such heads in photographs none lies so far off
+  if (known.scale.sheet || screw.evidence > kFaintHead || IsSlotted(screw)) return false;
+  return !LiesWhereBladesTurn(screw, known, std::sqrt(kFar)) &&
+         OffSilhouette(screw.center_px, known) > kFar;
+}
+
 bool MirrorNear(const Screw& screw, const HeadSearch& known) {
   if (!known.scale.sheet) return MirrorAbout(screw, known);
   const PlacePx foot = FootBelow(screw, known.scale, known.scene);

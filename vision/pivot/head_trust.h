@@ -15,6 +15,10 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // known view the edges say more, by mirroring each other about it or not.
 [[nodiscard]] bool IsCredibleThere(const Screw& screw, const HeadSearch& known);
 
+// Whether a head of which little shows lies far from where the blades put the pivot, in a view that
+// is not known, and from where the silhouette does as well.
+[[nodiscard]] bool LiesAstray(const Screw& screw, const HeadSearch& known);
+
 // Whether the edges mirror each other about a place as near to the head as that is known. One that
 // lies aside adds to one edge's distance and takes from the other's; of one that hardly shows that
 // excuses edges that are suspect, none that are unlike.
