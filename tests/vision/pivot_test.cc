@@ -359,6 +359,13 @@ TEST(FindPivot, TakesAnArcForAHalfLitHeadRightWhereTheBladesTurn) {
   }
   for (const double sigmas : {-2.0, 2.0})
     EXPECT_EQ(find(place(sigmas)).source, "geometry") << sigmas;
+  Scene doubtful = measured.scene;
+  doubtful.outlined = true;
+  EXPECT_EQ(FindPivot(WithArcForHead(measured, place(0), kArc),
+                      unknown_view,
+                      {doubtful, edges, std::nullopt, std::nullopt})
+                .source,
+            "geometry");
 }
 
 // A photograph a few hundred pixels wide, its screw's slot some way round.

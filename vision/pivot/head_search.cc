@@ -246,9 +246,12 @@ std::optional<Screw> LookForHalfLit(const HeadSearch& known) {
   return head && MirrorNear(*head, known) ? head : std::nullopt;
 }
 
+// In an unknown view of a scene that is in doubt so is where the blades turn.
 bool MayTurnAbout(const Screw& screw, const HeadSearch& known) {
-  return LiesWhereBladesTurn(screw, known) &&
-         (known.scale.sheet ? MirrorNear(screw, known) : MayMirrorAbout(screw, known));
+  if (!LiesWhereBladesTurn(screw, known)) return false;
+  if (known.scale.sheet) return MirrorNear(screw, known);
+  return (screw.evidence > kUnmistakable || !known.scene.IsDoubtful()) &&
+         MayMirrorAbout(screw, known);
 }
 
 // Right where the blades turn an arc that is no head elsewhere is one, half lit: at 350
