@@ -528,18 +528,20 @@ TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
 }
 
 // Two clear edges that differ by far more than the pivot is off: what lies within the border of a
-// bright blade is its bevel, though that looks like the ground. A dark blade may cast a shadow
-// instead, and the view's tilt may part the edges.
+// bright blade is its bevel, though that looks like the ground, unless a bevel is seen within it. A
+// dark blade may cast a shadow instead, and the view's tilt may part the edges.
 TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
-  constexpr double kBrighter = -0.3, kClosePx = 0.5;
+  constexpr double kBrighter = -0.3, kClear = 0.3, kClosePx = 0.5;
   const SceneSpec spec = SceneWithMarkers();
-  const auto borrowed = [&](double contrast, bool with_markers) {
+  const auto borrowed = [&](double contrast, bool with_markers, double rival_px = 0) {
     Measured measured{spec};
     LocatedBlade& upper = measured.blades.upper;
     for (LocatedBlade* blade : {&upper, &measured.blades.lower}) {
       measured.Misplace(blade, blade == &upper ? -testing::kBevelPx : 0, contrast);
       Measured::MakeClear(blade);
     }
+    if (rival_px != 0) upper.edge.ambiguity = kClear;
+    upper.edge.rival_px = rival_px;
     measured.photo = Measured::PhotoOf(testing::Grained(testing::BareSheet()));
     if (!with_markers) measured.scale.sheet.reset();
     const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
@@ -552,6 +554,8 @@ TEST(BorrowInnerOne, TakesTheClearLineOfABrightBladeForItsBevelsThatIsNotSeen) {
   EXPECT_TRUE(borrowed(kBrighter, true));
   EXPECT_FALSE(borrowed(-kBrighter, true));
   EXPECT_FALSE(borrowed(kBrighter, false));
+  EXPECT_TRUE(borrowed(kBrighter, true, testing::kBevelPx)) << "a line on the ground";
+  EXPECT_FALSE(borrowed(kBrighter, true, -testing::kBevelPx)) << "the bevel's line";
 }
 
 // Of an edge far out that is darker than the ground, the inner one being seen to hide

@@ -45,6 +45,12 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
+// Whether a bevel is seen within an edge, by its line: then the edge is no bevel's line itself.
+bool HasBevelWithin(const LocatedEdge& edge) {
+  constexpr double kShows = 0.2;  // ambiguity
+  return edge.rival_px < 0 && edge.ambiguity > kShows;
+}
+
 // A turn about the pivot, rad, that as many places of a gap agree with as with any other.
 double CommonestTurn(const EdgeGap& gap, double within_mm) {
   std::size_t most = 0;
@@ -139,7 +145,7 @@ void BorrowInnerOne(const BladeView& view,
   const auto [inner, other] = InnerOne(pivot, blades);
   if (!MayMirror(other, pivot) || !DifferBeyondPivot(pivot, *blades)) return;
   const bool knows_mirror = KnowsMirror(view, pivot);
-  if (IsClear(inner.edge) && !knows_mirror) return;
+  if (IsClear(inner.edge) && (!knows_mirror || HasBevelWithin(inner.edge))) return;
   const MirroredBladeSearch search{view, pivot, other, line};
   auto trace = TraceBeyond(search, inner);
   if (!trace && knows_mirror && MayBeLineOfBevel(inner, other, pivot))

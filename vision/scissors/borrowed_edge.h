@@ -13,9 +13,10 @@ namespace bladecurve {
 // to be located by itself: as good as the other edge, the pivot and the trace are, and marked as
 // doubtful. In a view of known tilt also where nothing is seen of it, if both blades are clearly
 // seen and brighter than the ground: half as far off as the edges differ, standard. In one of
-// unknown tilt no clear edge is: that may part them, too. Not where the other edge is doubtful
-// itself or hardly shows, or is seen to go on within the band between, nor where the pivot may
-// account for the difference, nor about a head that may be none: of that the edges say nothing.
+// unknown tilt no clear edge is: that may part them, too. Nor is one within which a bevel is seen.
+// Not where the other edge is doubtful itself or hardly shows, or is seen to go on within the band
+// between, nor where the pivot may account for the difference, nor about a head that may be none:
+// of that the edges say nothing.
 void BorrowInnerOne(const BladeView& view,
                     const MirrorLine& line,
                     const Pivot& pivot,
