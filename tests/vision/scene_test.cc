@@ -373,6 +373,34 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
   EXPECT_FALSE(sees_stubs()) << "the limbs go on";
 }
 
+// Lines that cross, as of a grid of which a threshold shows some cells, or tapering limbs in their
+// stead.
+TEST(SeenIn, TakesNoLinesThatCrossForBlades) {
+  const cv::Point joint(320, 240);
+  const auto sees_blades = [&](int way_px, bool taper) {
+    cv::Mat mask = cv::Mat::zeros(480, 640, CV_8UC1), light;
+    for (const int sign : {-1, 1}) {
+      const cv::Point along(way_px, sign * way_px * 4 / 10), tip = joint + along;
+      cv::line(mask, joint, joint - 2 * along, 255, 4);
+      cv::circle(mask, joint - 2 * along - cv::Point(way_px / 3, 0), way_px / 3, 255, 4);
+      if (taper)
+        cv::fillConvexPoly(
+            mask, std::vector{tip, joint + cv::Point(0, 4), joint - cv::Point(0, 4)}, 255);
+      else
+        cv::line(mask, joint, tip, 255, 4);
+    }
+    mask.convertTo(light, CV_32FC1, 100.0 / 255);
+    Candidate like;
+    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, mask.size())});
+    return std::ranges::any_of(SeenIn(mask, like, {}, {}).candidates, [&](const Candidate& c) {
+      return std::min(c.pair.first.tip.x(), c.pair.second.tip.x()) > joint.x;
+    });
+  };
+  EXPECT_TRUE(sees_blades(50, true));
+  EXPECT_FALSE(sees_blades(50, false));
+  EXPECT_TRUE(sees_blades(100, false)) << "may be the rims of blades";
+}
+
 const cv::Point kJoint(250, 200);
 
 // A place on the lines that cross at the joint, one above and one below it on the right.

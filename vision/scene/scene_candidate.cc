@@ -18,6 +18,7 @@
 #include "vision/scene/beyond_tips.h"
 #include "vision/scene/closed_shape.h"
 #include "vision/scene/covered_handles.h"
+#include "vision/scene/limbs.h"
 #include "vision/scene/silhouette.h"
 #include "vision/scene/touching_handles.h"
 
@@ -102,6 +103,24 @@ void DoubtStubs(const cv::Mat& mask, const Silhouette& silhouette, BladePair* pa
   if (!GoOnBeyondTips(mask, silhouette, *pair)) return;
   pair->quality = pair->worst_grade = 0;
   pair->doubt = "the blades go on beyond their tips";
+}
+
+// Short blades, narrow and as wide near their tips as near the crotch, are lines that cross, as
+// those of a cutting mat's grid do.
+void DoubtLines(const cv::Mat& mask, BladePair* pair) {
+  constexpr double kShort = 0.1;             // of the picture's longer side
+  constexpr double kNarrow = 0.16;           // of the length
+  constexpr double kNear = 0.3, kFar = 0.8;  // of the length
+  constexpr double kAsWide = 0.85;           // far, of near; one in fifty blades has more
+  const BladeContour &first = pair->first, &second = pair->second;
+  const auto is_narrow = [&](const BladeContour& b) { return b.width < kNarrow * b.length; };
+  if (SizeOf(*pair) > kShort * std::max(mask.cols, mask.rows)) return;
+  if (!is_narrow(first) || !is_narrow(second)) return;
+  const auto width = [&](double share) {
+    return WidthAcross(mask, pair->crotch, first.tip, share) +
+           WidthAcross(mask, pair->crotch, second.tip, share);
+  };
+  if (width(kFar) > kAsWide * width(kNear)) ApplyGrade(0, "lines that cross", pair);
 }
 
 template <typename T>
@@ -193,6 +212,7 @@ std::optional<Candidate> FirstOf(std::vector<BladePair> pairs,
   constexpr double kWorthKeeping = 0.2;  // what clutter reaches
   for (BladePair& pair : pairs) {
     if (like.outlined && pair.quality >= kWorthKeeping) DoubtStubs(like.mask, silhouette, &pair);
+    DoubtLines(like.mask, &pair);
     if (pair.quality < kWorthKeeping) continue;
     if (!AgreesWithHints(pair, *like.at, hints)) {
       *contradicting = std::max(*contradicting, pair.quality);
