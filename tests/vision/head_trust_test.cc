@@ -40,17 +40,28 @@ Screw HeadThere(double evidence, bool slotted) {
   return screw;
 }
 
-// A faint head, as far from where the blades put the pivot as an edge that is wrong puts it, and so
-// far across from where the silhouette does.
-bool IsCredibleFaint(bool slotted, double off_silhouette_px) {
-  ScaleResult scale;
-  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+// A joint about a head, of which the silhouette puts the pivot there.
+Scene JointAbout(const Vector2d& pivot_px, double sigma_px) {
   Scene scene;
   scene.shank_width_px = 50;
   scene.crotch_px = kTrustedHead + Vector2d(80, 0);
   scene.shank_crotch_px = kTrustedHead - Vector2d(80, 0);
-  scene.pivot_px = kTrustedHead + Vector2d(10, off_silhouette_px);
-  scene.pivot_sigma_px = 15;
+  scene.pivot_px = pivot_px;
+  scene.pivot_sigma_px = sigma_px;
+  return scene;
+}
+
+ScaleResult UnknownView() {
+  ScaleResult scale;
+  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+  return scale;
+}
+
+// A faint head, as far from where the blades put the pivot as an edge that is wrong puts it, and so
+// far across from where the silhouette does.
+bool IsCredibleFaint(bool slotted, double off_silhouette_px) {
+  const ScaleResult scale = UnknownView();
+  const Scene scene = JointAbout(kTrustedHead + Vector2d(10, off_silhouette_px), 15);
   const PlacePx by_geometry{kTrustedHead + Vector2d(10, 40),
                             Vector2d(15 * 15, 5 * 5).asDiagonal().toDenseMatrix()};
   const EdgePair edges = UnlikeEdges();
@@ -72,14 +83,8 @@ bool LiesFarFromBoth(double off_blades_px,
                      double evidence = 8,
                      bool slotted = false) {
   constexpr double kSigmaPx = 10;
-  ScaleResult scale;
-  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
-  Scene scene;
-  scene.shank_width_px = 50;
-  scene.crotch_px = kTrustedHead + Vector2d(80, 0);
-  scene.shank_crotch_px = kTrustedHead - Vector2d(80, 0);
-  scene.pivot_px = kTrustedHead + Vector2d(off_silhouette_px, 0);
-  scene.pivot_sigma_px = kSigmaPx;
+  const ScaleResult scale = UnknownView();
+  const Scene scene = JointAbout(kTrustedHead + Vector2d(off_silhouette_px, 0), kSigmaPx);
   const PlacePx by_geometry{kTrustedHead + Vector2d(off_blades_px, 0),
                             kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity()};
   const EdgePair edges;
@@ -99,8 +104,7 @@ TEST(LiesAstray, FarFromWhereBladesAndSilhouettePutThePivot) {
 bool IsSure(bool slotted, double sigmas_off) {
   constexpr double kSigmaPx = 10;
   const Screw screw = HeadThere(0.5 * (kFaintHead + kUnmistakable), slotted);
-  ScaleResult scale;
-  scale.map = PlaneMap::Uniform(0.1, 0, "mm-per-px");
+  const ScaleResult scale = UnknownView();
   Scene scene;
   scene.shank_width_px = 50;
   const PlacePx by_geometry{kTrustedHead + Vector2d(sigmas_off * kSigmaPx, 0),

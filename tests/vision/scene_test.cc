@@ -319,6 +319,15 @@ TEST(WithHandlesParted, OpensTheGapBetweenShanksWhoseRingsTouch) {
   EXPECT_TRUE(WithHandlesParted(apart, FindSilhouettes(apart, 1).front()).empty());
 }
 
+// What is seen in a picture of that light (CV_8UC1), at full resolution.
+Candidate LikeOf(const cv::Mat& grey) {
+  cv::Mat light;
+  grey.convertTo(light, CV_32FC1, 100.0 / 255);
+  Candidate like;
+  like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, grey.size())});
+  return like;
+}
+
 TEST(SeenIn, TakesTheGapsBetweenMarkersForNoScissors) {
   const cv::Size size(400, 400);
   const auto seen_from_aside = [&](const std::vector<cv::Rect>& rectangles) {
@@ -334,14 +343,10 @@ TEST(SeenIn, TakesTheGapsBetweenMarkersForNoScissors) {
   const cv::Mat hidden =
       seen_from_aside({{98, 98, 97, 97}, {206, 98, 97, 97}, {98, 206, 97, 97}, {206, 206, 97, 97}});
   const cv::Mat mask = card & ~hidden;
-  cv::Mat light;
-  mask.convertTo(light, CV_32FC1, 100.0 / 255);
-  Candidate like;
-  like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, size)});
   const std::vector<BladePair> pairs = FindBladePairs(FindSilhouettes(mask, 1).front(), hidden);
   ASSERT_FALSE(pairs.empty());
   EXPECT_GT(pairs.front().quality, kAcceptedQuality) << "their outline alone looks like some";
-  for (const Candidate& c : SeenIn(mask, like, hidden, {}).candidates)
+  for (const Candidate& c : SeenIn(mask, LikeOf(mask), hidden, {}).candidates)
     EXPECT_LT(c.pair.quality, kAcceptedQuality);
 }
 
@@ -356,13 +361,9 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
         along(sign, 150), joint + cv::Point(4, -18), joint + cv::Point(-4, 18)};
     cv::fillConvexPoly(mask, stub, 255);
   }
-  Candidate like;
-  like.outlined = true;
   const auto sees_stubs = [&] {
-    cv::Mat light;
-    mask.convertTo(light, CV_32FC1, 100.0 / 255);
-    const cv::Rect whole({}, mask.size());
-    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, whole});
+    Candidate like = LikeOf(mask);
+    like.outlined = true;
     const Rung seen = SeenIn(mask, like, {}, {});
     return std::any_of(seen.candidates.begin(), seen.candidates.end(), [&](const Candidate& c) {
       return c.pair.first.tip.x() > joint.x;
@@ -378,7 +379,7 @@ TEST(SeenIn, TakesNoStubsOfShanksForBlades) {
 TEST(SeenIn, TakesNoLinesThatCrossForBlades) {
   const cv::Point joint(320, 240);
   const auto sees_blades = [&](int way_px, bool taper) {
-    cv::Mat mask = cv::Mat::zeros(480, 640, CV_8UC1), light;
+    cv::Mat mask = cv::Mat::zeros(480, 640, CV_8UC1);
     for (const int sign : {-1, 1}) {
       const cv::Point along(way_px, sign * way_px * 4 / 10), tip = joint + along;
       cv::line(mask, joint, joint - 2 * along, 255, 4);
@@ -389,12 +390,10 @@ TEST(SeenIn, TakesNoLinesThatCrossForBlades) {
       else
         cv::line(mask, joint, tip, 255, 4);
     }
-    mask.convertTo(light, CV_32FC1, 100.0 / 255);
-    Candidate like;
-    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, cv::Rect({}, mask.size())});
-    return std::ranges::any_of(SeenIn(mask, like, {}, {}).candidates, [&](const Candidate& c) {
-      return std::min(c.pair.first.tip.x(), c.pair.second.tip.x()) > joint.x;
-    });
+    return std::ranges::any_of(
+        SeenIn(mask, LikeOf(mask), {}, {}).candidates, [&](const Candidate& c) {
+          return std::min(c.pair.first.tip.x(), c.pair.second.tip.x()) > joint.x;
+        });
   };
   EXPECT_TRUE(sees_blades(50, true));
   EXPECT_FALSE(sees_blades(50, false));
@@ -491,12 +490,8 @@ TEST(SeenIn, LooksForTheSharpEdgeBesideTheContour) {
   const auto quality = [&](double blur_px) {
     cv::Mat light;
     cv::GaussianBlur(pair, light, {}, blur_px);
-    light.convertTo(light, CV_32FC1, 100.0 / 255);
-    const cv::Rect whole({}, mask.size());
-    Candidate like;
-    like.at = std::make_shared<const ScaledImage>(ScaledImage{light, whole});
     double best = 0;
-    for (const Candidate& c : SeenIn(mask, like, {}, {}).candidates)
+    for (const Candidate& c : SeenIn(mask, LikeOf(light), {}, {}).candidates)
       best = std::max(best, c.pair.quality);
     return best;
   };
