@@ -409,6 +409,24 @@ TEST(LocateEdge, WhereLightFallsTwiceTheOuterFallIsTheBorderHoweverFarFromTheGue
   }
 }
 
+// A bevel may mirror the ground, and be hardly brighter than the soft shadow beside it.
+TEST(LocateEdge, AnOuterFallOfLightIsTheBorderHoweverLow) {
+  constexpr double kClose = 0.3;                        // px; the shadow draws it out
+  constexpr double kBevel = 6, kShadow = 12;            // px wide, and to where it is half as deep
+  constexpr double kFlat = 240, kLow = 14, kDeep = 24;  // what light steps by
+  Gaussian random(24);
+  for (int trial = 0; trial < 6; ++trial) {
+    const Line line = RandomLine(random);
+    const cv::Mat light = Banded(line, [](double d) {
+      return kFlat - 165 * Edge(d + kBevel) - kLow * Edge(d) + kDeep * Smooth(d - kShadow, 4);
+    });
+    const LocatedEdge edge = LocateEdge(testing::Stored(light, 0.5, 1, random),
+                                        testing::GammaCurve(1),
+                                        GuessOf(line, -kBevel, -kBevel));
+    EXPECT_NEAR(MeanOffset(edge, line).mean, 0, kClose);
+  }
+}
+
 TEST(LocateEdge, GlintsAreOutliersAndMoveNothing) {
   Gaussian random(17);
   const Line line = RandomLine(random);

@@ -110,12 +110,12 @@ double MeanClearness(const StepMap& map, const StepLine& line) {
 }
 
 // The next line further out, where it is about as clear and as high: what lies outside a silhouette
-// is not. Where light falls at both, the outer one is no shadow's border, at which it rises: half
-// as high is enough, and the guess may have lain on a bevel's inner line, farther off than it may
-// lie from the border.
+// is not. Where light falls at both, the outer one is no shadow's border, at which it rises: a
+// twentieth as high is enough, as a bevel may be hardly brighter than the shadow beside it, and the
+// guess may have lain on a bevel's inner line, farther off than it may lie from the border.
 StepLine OuterMatch(const Survey& survey, const StepLine& line, const LineSearch& search) {
   constexpr int kApart = 2;  // px; nearer lines are the same
-  constexpr double kAsClear = 0.75, kAsHigh = 0.75, kAsHighFalling = 0.5;  // of the line
+  constexpr double kAsClear = 0.75, kAsHigh = 0.75, kAsHighFalling = 0.05;  // of the line
   constexpr double kStandsOut = 10;  // times what texture does, in which light falls everywhere
   const double height = TypicalHeight(survey.map, line), widest = WidestBevel(survey);
   const auto falls_too = [&](double step) {
