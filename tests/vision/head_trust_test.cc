@@ -100,6 +100,22 @@ TEST(LiesAstray, FarFromWhereBladesAndSilhouettePutThePivot) {
   EXPECT_FALSE(LiesFarFromBoth(30, 30, 8, true)) << "the slot shows";
 }
 
+TEST(IsTooFlat, WhereTheViewIsKnownAndTheHeadIsNotUnmistakable) {
+  const Scene scene = JointAbout(kTrustedHead, 10);
+  const EdgePair edges;
+  const auto is_too_flat = [&](const ScaleResult& scale, double evidence, double flatness) {
+    Screw head = HeadThere(evidence, false);
+    head.semi_minor_px = flatness * head.semi_major_px;
+    return IsTooFlat(head, {cv::Mat(), scale, scene, edges, {}, std::nullopt});
+  };
+  ScaleResult over_sheet = UnknownView();
+  over_sheet.sheet.emplace();
+  EXPECT_TRUE(is_too_flat(over_sheet, kBeyondDoubt, 0.8));
+  EXPECT_FALSE(is_too_flat(over_sheet, kBeyondDoubt, 0.9));
+  EXPECT_FALSE(is_too_flat(over_sheet, 2 * kUnmistakable, 0.8));
+  EXPECT_FALSE(is_too_flat(UnknownView(), kBeyondDoubt, 0.8)) << "a slant flattens it";
+}
+
 // A head of unusual size, where the blades alone put the pivot so many standard deviations off.
 bool IsSure(bool slotted, double sigmas_off) {
   constexpr double kSigmaPx = 10;

@@ -132,7 +132,8 @@ std::optional<Screw> Find(const cv::Mat& grey,
 
 std::optional<Screw> FindHere(const HeadSearch& known, const ScrewSearch& search) {
   const std::optional<Screw> screw = Find(known.grey, known.scale, known.scene, search);
-  return screw && LiesAstray(*screw, known) ? std::nullopt : screw;
+  const bool is_none = screw && (LiesAstray(*screw, known) || IsTooFlat(*screw, known));
+  return is_none ? std::nullopt : screw;
 }
 
 // What is seen in each of the searches, side by side.
@@ -149,7 +150,8 @@ std::optional<Screw> LookForScrew(const HeadSearch& known) {
   const Scene& scene = known.scene;
   std::optional<Screw> clearest = known.at_joint;
   if (clearest && clearest->evidence > kBeyondDoubt) return clearest;
-  if (clearest && !IsCredibleThere(*clearest, known)) clearest.reset();
+  if (clearest && (IsTooFlat(*clearest, known) || !IsCredibleThere(*clearest, known)))
+    clearest.reset();
   for (const std::optional<Screw>& screw :
        FindInEach(known,
                   {SearchForHead(

@@ -81,6 +81,12 @@ bool LiesAstray(const Screw& screw, const HeadSearch& known) {
   return std::min(OffBlades(screw, known), OffSilhouette(screw.center_px, known)) > kFar;
 }
 
+bool IsTooFlat(const Screw& screw, const HeadSearch& known) {
+  constexpr double kFlattest = 0.85;  // ratio of the axes; 330 heads beside markers keep to 0.89
+  return known.scale.sheet && screw.evidence <= kUnmistakable &&
+         screw.semi_minor_px < kFlattest * screw.semi_major_px;
+}
+
 bool MirrorNear(const Screw& screw, const HeadSearch& known) {
   if (!known.scale.sheet) return MirrorAbout(screw, known);
   const PlacePx foot = FootBelow(screw, known.scale, known.scene);

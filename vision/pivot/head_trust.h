@@ -19,6 +19,10 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // is not known, and from where the silhouette does as well.
 [[nodiscard]] bool LiesAstray(const Screw& screw, const HeadSearch& known);
 
+// Whether a head that can be mistaken is flatter than any is in a known view, from which it is seen
+// from above.
+[[nodiscard]] bool IsTooFlat(const Screw& screw, const HeadSearch& known);
+
 // Whether the edges mirror each other about a place as near to the head as that is known. One that
 // lies aside adds to one edge's distance and takes from the other's; of one that hardly shows that
 // excuses edges that are suspect, none that are unlike.
