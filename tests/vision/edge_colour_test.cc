@@ -238,6 +238,28 @@ TEST(JudgeDarkBand, LeavesGreyOnGreyOpen) {
   EXPECT_EQ(Judge(steel, 0.3 * paper, paper), DarkBand::kUnknown);
 }
 
+// A narrow band beside a bevel that is 6 px wide.
+bool IsGround(const Vector3d& bevel, const Vector3d& band, double bevel_px = 6) {
+  constexpr double kBandPx = 4;
+  const Vector3d flat(220, 220, 216), mat(103, 123, 67);
+  Gaussian random(4);
+  const cv::Mat bgr = Coloured(random, [&](double d) {
+    return flat + Smooth(d + kBandPx + bevel_px) * (bevel - flat) +
+           Smooth(d + kBandPx) * (band - bevel) + Smooth(d) * (mat - band);
+  });
+  LocatedEdge edge = OutsideABand();
+  edge.rival_px = -kBandPx - bevel_px;
+  return IsGroundBesideBevel(bgr, testing::GammaCurve(1), edge, kBandPx);
+}
+
+TEST(IsGroundBesideBevel, NeedsTheGroundsColourAndABevelOfAnother) {
+  const Vector3d steel(82, 82, 80), mat(103, 123, 67);
+  EXPECT_TRUE(IsGround(steel, 0.3 * mat));
+  EXPECT_FALSE(IsGround(steel, 0.3 * steel)) << "its dark facet";
+  EXPECT_FALSE(IsGround(0.6 * mat, 0.3 * mat)) << "the bevel mirrors the ground";
+  EXPECT_FALSE(IsGround(steel, 0.3 * mat, 3)) << "too narrow to have a colour";
+}
+
 TEST(JudgeDarkBand, TellsShadowFromBevelByThePatternOfAGreyGround) {
   EXPECT_EQ(JudgeOn(Stripes, 1), DarkBand::kShadow);
   EXPECT_EQ(JudgeOn(Stripes, 0), DarkBand::kMetal);

@@ -22,6 +22,7 @@
 #include "process_folder.h"
 #include "tests/degree.h"
 #include "vision/edge_images.h"
+#include "vision/scissors/cast_shadow.h"
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/scene_guess.h"
 
@@ -29,6 +30,7 @@ namespace bladecurve {
 namespace {
 
 using testing::FarFrom;
+using testing::kBevelPx;
 using testing::Measured;
 using testing::RetouchedAlongUpperEdge;
 using testing::SceneWithShadow;
@@ -463,6 +465,38 @@ TEST(LocateBlades, TakesTheColoursWhereAShadowIsNarrow) {
     EXPECT_LT(FarFrom(truth.upper, edges.upper.points), kClosePx) << theta_rad;
     EXPECT_LT(FarFrom(truth.lower, edges.lower.points), kClosePx) << theta_rad;
   }
+}
+
+// An upper blade on green ground with a grey bevel, and beside that a dark band of `band` colour,
+// or of the ground's in shadow, whose border was taken for the blade's.
+double FarFromBorderBesideBevel(const std::optional<cv::Vec3d>& band) {
+  constexpr double kBandPx = 4, kShade = 0.3;
+  SceneSpec spec;
+  spec.backdrop = Backdrop::kDrape;
+  spec.drape_rgb = {0.1, 0.25, 0.17};
+  spec.light.glint = spec.light.shadow = 0;
+  const cv::Mat picture = RetouchedAlongUpperEdge(
+      spec, -kBandPx, kBevelPx, [&](const cv::Vec3d& sheet, double depth, double) -> cv::Vec3d {
+        return depth >= 0 ? cv::Vec3d(82, 84, 80) : band.value_or(kShade * sheet);
+      });
+  const Seen seen(spec, picture);
+  const BladeView view(seen.photo, seen.scale, seen.scene);
+  BladeEdges edges = Seen(spec).Locate();
+  for (LocatedEdgePoint& point : edges.upper.points) {
+    point.point_px += kBandPx * point.normal;
+    point.trend_px += kBandPx * point.normal;
+  }
+  for (LocatedEdgePoint& point : edges.lower.points) point.inlier = false;  // else it would tell
+  edges.upper.rival_px = -kBandPx - kBevelPx;
+  edges.upper.ambiguity = 0.5;
+  LeaveCastShadow(view, &edges);
+  return FarFrom(TruthOf(spec).upper, edges.upper.points);
+}
+
+TEST(LeaveCastShadow, LeavesADarkBandOfTheGroundsColourBesideABevel) {
+  constexpr double kClosePx = 0.5, kFarPx = 2;
+  EXPECT_LT(FarFromBorderBesideBevel(std::nullopt), kClosePx);
+  EXPECT_GT(FarFromBorderBesideBevel(cv::Vec3d(26, 27, 25)), kFarPx) << "its dark facet";
 }
 
 // Scene finding may take a piece of the background for blade: its trace has a notch then.

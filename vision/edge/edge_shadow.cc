@@ -61,21 +61,20 @@ std::optional<Chroma> ChromaAlong(const PicturePart& bgr,
   return Chroma(Median(std::move(blue)), Median(std::move(red)));
 }
 
+// metal: what lies within the band and is metal for certain.
 DarkBand JudgeByColour(const PicturePart& bgr,
                        const ToneCurve& tone,
                        const LocatedEdge& edge,
-                       double blade_px) {
-  constexpr double kDeepest = 0.45, kDeep = 0.25;  // of the blade's width, from the inner step
-  constexpr double kToldApart = 0.15;              // chromas nearer than that are not
-  constexpr double kShadow = 0.45, kMetal = 0.6;   // of the way from background to blade
+                       const Strip& metal) {
+  constexpr double kToldApart = 0.15;             // chromas nearer than that are not
+  constexpr double kShadow = 0.45, kMetal = 0.6;  // of the way from background to blade
   constexpr double kBleedPx = 5;  // colours are stored at half the resolution: bright metal lends a
                                   // narrow dark band its own, but no more than that
   constexpr double kScatter = 0.05;  // of chromas: skylight, colours that bleed
   const Strips strips(edge.rival_px);
   const auto band = ChromaAlong(bgr, tone, edge, strips.Band());
   const auto ground = ChromaAlong(bgr, tone, edge, strips.Ground());
-  const auto blade = ChromaAlong(
-      bgr, tone, edge, {strips.inner - kDeepest * blade_px, strips.inner - kDeep * blade_px});
+  const auto blade = ChromaAlong(bgr, tone, edge, metal);
   if (!band || !ground || !blade) return DarkBand::kUnknown;
   const Chroma way = *blade - *ground;
   if (way.norm() < kToldApart) return DarkBand::kUnknown;
@@ -199,8 +198,23 @@ DarkBand JudgeDarkBand(const PicturePart& bgr,
                        const LocatedEdge& edge,
                        double blade_px,
                        const std::vector<Vector2d>& other_px) {
-  const DarkBand by_colour = JudgeByColour(bgr, tone, edge, blade_px);
+  constexpr double kDeepest = 0.45, kDeep = 0.25;  // of the blade's width, from the inner step
+  const double inner = std::min(edge.rival_px, 0.0);
+  const DarkBand by_colour =
+      JudgeByColour(bgr, tone, edge, {inner - kDeepest * blade_px, inner - kDeep * blade_px});
   return by_colour == DarkBand::kUnknown ? JudgeByPattern(bgr, tone, edge, other_px) : by_colour;
+}
+
+bool IsGroundBesideBevel(const PicturePart& bgr,
+                         const ToneCurve& tone,
+                         const LocatedEdge& edge,
+                         double width_px) {
+  constexpr double kNarrowestPx = 1;  // of the bevel, but for the blur at both its lines
+  const Strip bevel{edge.rival_px + kBlur, -width_px - kBlur};
+  if (bevel.to - bevel.from < kNarrowestPx) return false;
+  LocatedEdge beside = edge;
+  beside.rival_px = -width_px;
+  return JudgeByColour(bgr, tone, beside, bevel) == DarkBand::kShadow;
 }
 
 }  // namespace bladecurve

@@ -36,4 +36,11 @@ enum class DarkBand {
                                       const LocatedEdge& edge,
                                       const std::vector<Eigen::Vector2d>& other_px);
 
+// Whether the dark band that far within an edge whose rival is a bevel's inner line is the ground
+// in shadow: of its colour, and not of the bevel's. bgr: as above.
+[[nodiscard]] bool IsGroundBesideBevel(const PicturePart& bgr,
+                                       const ToneCurve& tone,
+                                       const LocatedEdge& edge,
+                                       double width_px);
+
 }  // namespace bladecurve

@@ -45,12 +45,6 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
-// Whether a bevel is seen within an edge, by its line: then the edge is no bevel's line itself.
-bool HasBevelWithin(const LocatedEdge& edge) {
-  constexpr double kShows = 0.2;  // ambiguity
-  return edge.rival_px < 0 && edge.ambiguity > kShows;
-}
-
 // A turn about the pivot, rad, that as many places of a gap agree with as with any other.
 double CommonestTurn(const EdgeGap& gap, double within_mm) {
   std::size_t most = 0;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "vision/edge/edge_shadow.h"
 #include "vision/edge/edge_tread.h"
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_doubt.h"
@@ -106,6 +107,12 @@ bool IsShadowOfWholeSide(const BladeView& view, const Margin& margin, bool left)
          !SharpMarginAlong(view, view.OuterSide(left), left);
 }
 
+// Whether a dark margin has the ground's colour, and the bevel that is seen within it has not.
+bool IsShadowBesideBevel(const BladeView& view, const Margin& margin, const LocatedEdge& edge) {
+  return margin.than_blade == Shadow::kDarker && HasBevelWithin(edge) && view.ShowsColourAtTop() &&
+         IsGroundBesideBevel(view.Colours(), view.tone(), edge, margin.width_px);
+}
+
 // The share of the ground's light in what lies along the inner side of an edge of dark metal and is
 // brighter than that, narrow or wide.
 std::optional<double> ShareOfBrightStrip(const BladeView& view,
@@ -164,7 +171,9 @@ void LeaveCastShadow(const BladeView& view, BladeEdges* edges) {
     if (!margin) return;
     LocatedEdge& edge = left ? edges->upper : edges->lower;
     const LocatedEdge& other = left ? edges->lower : edges->upper;
-    const bool is_sure = OcclusionBeside(view, edge, -margin->width_px, other) == Occlusion::kNone;
+    const bool is_sure =
+        OcclusionBeside(view, edge, -margin->width_px, other) == Occlusion::kNone ||
+        IsShadowBesideBevel(view, *margin, edge);
     if (is_sure || IsShadowOfShank(view, *margin, left) ||
         IsShadowOfWholeSide(view, *margin, left) ||
         (alone && IsShadowOfOtherBlade(view, *margin, left)))

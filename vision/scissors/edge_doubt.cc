@@ -41,6 +41,11 @@ bool IsDoubtful(const LocatedEdge& edge) {
   return edge.ambiguity > kDoubt || edge.common_sigma_px > kVaguePx;
 }
 
+bool HasBevelWithin(const LocatedEdge& edge) {
+  constexpr double kShows = 0.2;  // ambiguity
+  return edge.rival_px < 0 && edge.ambiguity > kShows;
+}
+
 bool HardlyShowsBeside(const LocatedEdge& edge, const LocatedEdge& other) {
   constexpr double kHardly = 0.05;
   return std::abs(TypicalContrast(edge)) <= kHardly * std::abs(TypicalContrast(other));

@@ -14,6 +14,9 @@ namespace bladecurve {
 [[nodiscard]] bool IsClear(const LocatedEdge& edge);
 [[nodiscard]] bool IsDoubtful(const LocatedEdge& edge);
 
+// Whether a bevel is seen within an edge, by its line: then the edge is no bevel's line itself.
+[[nodiscard]] bool HasBevelWithin(const LocatedEdge& edge);
+
 // Whether light steps by so little at an edge, compared with the other one, that it says little of
 // where that is.
 [[nodiscard]] bool HardlyShowsBeside(const LocatedEdge& edge, const LocatedEdge& other);
