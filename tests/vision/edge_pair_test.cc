@@ -119,6 +119,8 @@ TEST(LiesInGround, IsTrueOfAShadowsBorderOnColouredGroundAlone) {
   const BladeEdges edges = LocateBlades(view);
   EXPECT_TRUE(LiesInGround(view, *in_grey, edges.lower, true));
   EXPECT_FALSE(LiesInGround(view, edges.upper, edges.lower, true));
+  EXPECT_FALSE(GroundEndsAt(view, *in_grey, edges.lower, true));
+  EXPECT_TRUE(GroundEndsAt(view, edges.upper, edges.lower, true));
 }
 
 // Steel on ground of a warmer white, in shadows about as dark as the blades.

@@ -356,13 +356,15 @@ TEST(RelocateUnlikeEdges, TakesNothingThatIsBrighterThanTheGroundForItsShadow) {
 }
 
 // Where the blades cross, as the scene without a bevel shows it.
-void RestoreCrotch(const Measured& measured, const SceneSpec& spec, cv::Mat* picture) {
-  constexpr int kAboutPx = 40;
+void RestoreCrotch(const Measured& measured,
+                   const SceneSpec& spec,
+                   cv::Mat* picture,
+                   int about_px = 40) {
   const Vector2d crotch = measured.blades.lower.used.front().trend_px;
-  const cv::Rect about(static_cast<int>(crotch.x()) - kAboutPx,
-                       static_cast<int>(crotch.y()) - kAboutPx,
-                       2 * kAboutPx,
-                       2 * kAboutPx);
+  const cv::Rect about(static_cast<int>(crotch.x()) - about_px,
+                       static_cast<int>(crotch.y()) - about_px,
+                       2 * about_px,
+                       2 * about_px);
   RenderScene(spec).bgr(about).copyTo((*picture)(about));
 }
 
@@ -393,13 +395,14 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
 
 // A blade beneath the other one, with a bevel so much darker than the ground of which the line on
 // the blade was taken for the edge; measured as the lower one.
-Measured WithDarkBevelBelow(double darker) {
-  SceneSpec spec = SceneWithMarkers();
+Measured WithDarkBevelBelow(double darker,
+                            SceneSpec spec = SceneWithMarkers(),
+                            int about_crotch_px = 40) {
   spec.scissors.upper_on_top = false;
   Measured measured{spec};
   cv::Mat picture = testing::Grained(testing::BrightenedAlongUpperEdge(
       spec, 0, testing::kBevelPx, [&](double, double) { return -darker; }));
-  RestoreCrotch(measured, spec, &picture);
+  RestoreCrotch(measured, spec, &picture, about_crotch_px);
   measured.Misplace(&measured.blades.upper, -testing::kBevelPx, -Measured::kStrong);
   Measured::MakeClear(&measured.blades.upper);
   measured.photo = Measured::PhotoOf(picture);
@@ -427,6 +430,23 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeAlongAFaintLineFurtherOutWithoutMarkers) {
     if (rival_px <= 0) continue;
     EXPECT_LT(FarFrom(measured.truth.upper, lower.used), kClosePx);
     EXPECT_GT(lower.edge.ambiguity, kWarned);
+  }
+}
+
+// What lies beyond it is ground, not a bevel.
+TEST(RelocateUnlikeEdges, LeavesNoEdgeAtWhichTheGroundsColourEnds) {
+  constexpr double kDarker = 12;
+  constexpr int kAboutCrotchPx = 20;  // where the colour ends further out
+  for (const Eigen::Vector3d& rgb : {Eigen::Vector3d(0.25, 0.25, 0.25), {0.1, 0.3, 0.2}}) {
+    SceneSpec spec = SceneWithMarkers();
+    spec.backdrop = Backdrop::kDrape;
+    spec.drape_rgb = rgb;
+    Measured measured = WithDarkBevelBelow(kDarker, spec, kAboutCrotchPx);
+    LocatedBlade& lower = measured.blades.lower;
+    AddRival(&lower.edge, testing::kBevelPx - 1.5);
+    Relocate(&measured);
+    const bool coloured = rgb[0] != rgb[1];
+    EXPECT_EQ(lower.moved.empty(), coloured) << lower.moved;
   }
 }
 

@@ -14,6 +14,7 @@
 #include "vision/scissors/dark_band.h"
 #include "vision/scissors/edge_difference.h"
 #include "vision/scissors/edge_doubt.h"
+#include "vision/scissors/ground_colour.h"
 #include "vision/scissors/mirrored_blade.h"
 #include "vision/scissors/shadowed_edge.h"
 
@@ -271,7 +272,8 @@ std::optional<RelocatedBlade> LookAlongRival(const MirroredBladeSearch& search,
 
 // The inner one of edges that differ, by no more than bevels are wide, where the blade's colour
 // ends, or along its rival, if there it mirrors the other by far better. Where a slanted view may
-// part them as well, not where it is far vaguer: what hardly shows lies everywhere.
+// part them as well, not where it is far vaguer, as what hardly shows lies everywhere, nor from
+// where the ground's colour ends.
 void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kWidestBevel = 0.05;            // of the length
   constexpr double kShortOf = 0.5, kDoubt = 0.25;  // of the way
@@ -280,6 +282,8 @@ void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blade
   if (std::abs(pivot.asymmetry) > kWidestBevel) return;
   const auto [inner, other] = InnerOne(pivot, blades);
   if (IsDoubtful(other.edge)) return;
+  if (!KnowsMirror(view, pivot) && GroundEndsAt(view, inner.edge, other.edge, inner.on_left))
+    return;
   const MirroredBladeSearch search{view, pivot, other, LineBetween(view, pivot, *blades)};
   const double sigma_px =
       std::hypot(TypicalSigma(inner.edge.points), SigmaWithoutRival(inner.edge));

@@ -139,4 +139,13 @@ bool LiesInGround(const BladeView& view,
   return border && border->offset_px <= -kFarPx;
 }
 
+bool GroundEndsAt(const BladeView& view,
+                  const LocatedEdge& edge,
+                  const LocatedEdge& other,
+                  bool left) {
+  if (!view.ShowsColourAtTop()) return false;
+  const auto border = ColoursBeside{view, other, left}.BorderAlong(edge);
+  return border && std::abs(border->offset_px) < kFarPx;
+}
+
 }  // namespace bladecurve

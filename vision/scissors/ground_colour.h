@@ -21,4 +21,10 @@ void SettleByColour(const BladeView& view, Plan plan, BladeEdges* edges);
                                 const LocatedEdge& other,
                                 bool left);
 
+// Whether the ground's colour, where it has one, ends at an edge. other: the other blade's edge.
+[[nodiscard]] bool GroundEndsAt(const BladeView& view,
+                                const LocatedEdge& edge,
+                                const LocatedEdge& other,
+                                bool left);
+
 }  // namespace bladecurve
