@@ -82,7 +82,7 @@ bool LiesAstray(const Screw& screw, const HeadSearch& known) {
 }
 
 bool IsTooFlat(const Screw& screw, const HeadSearch& known) {
-  constexpr double kFlattest = 0.85;  // ratio of the axes; 330 heads beside markers keep to 0.89
+  constexpr double kFlattest = 0.85;  // ratio of the axes; 320 heads beside markers keep to 0.89
   return known.scale.sheet && screw.evidence <= kUnmistakable &&
          screw.semi_minor_px < kFlattest * screw.semi_major_px;
 }

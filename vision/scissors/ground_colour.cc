@@ -102,6 +102,13 @@ void LeaveLightAlone(const ColoursBeside& colours, LocatedEdge* edge) {
   DoubtForRival(edge, std::abs(border->offset_px));
 }
 
+// How far out of an edge the ground's colour ends, where it has one.
+std::optional<double> GroundsEndPx(const ColoursBeside& colours, const LocatedEdge& edge) {
+  if (!colours.view.ShowsColourAtTop()) return std::nullopt;
+  const auto border = colours.BorderAlong(edge);
+  return border ? std::optional(border->offset_px) : std::nullopt;
+}
+
 bool LeavesDoubt(const LocatedEdge& edge) {
   constexpr double kVaguePx = 0.5;
   return TotalSigma(edge) > kVaguePx || edge.ambiguity > kAsGood;
@@ -134,18 +141,17 @@ bool LiesInGround(const BladeView& view,
                   const LocatedEdge& edge,
                   const LocatedEdge& other,
                   bool left) {
-  if (TypicalContrast(edge) <= 0 || !view.ShowsColourAtTop()) return false;
-  const auto border = ColoursBeside{view, other, left}.BorderAlong(edge);
-  return border && border->offset_px <= -kFarPx;
+  if (TypicalContrast(edge) <= 0) return false;
+  const auto end_px = GroundsEndPx({view, other, left}, edge);
+  return end_px && *end_px <= -kFarPx;
 }
 
 bool GroundEndsAt(const BladeView& view,
                   const LocatedEdge& edge,
                   const LocatedEdge& other,
                   bool left) {
-  if (!view.ShowsColourAtTop()) return false;
-  const auto border = ColoursBeside{view, other, left}.BorderAlong(edge);
-  return border && std::abs(border->offset_px) < kFarPx;
+  const auto end_px = GroundsEndPx({view, other, left}, edge);
+  return end_px && std::abs(*end_px) < kFarPx;
 }
 
 }  // namespace bladecurve
