@@ -561,6 +561,19 @@ TEST(SceneFinder, RefusesTwoPairsOfScissors) {
   EXPECT_EQ(ReasonFor(two), "several_scissors");
 }
 
+// An instrument of which no blades are seen has rings as well; whoever points at one is obeyed.
+TEST(SceneFinder, RefusesAnotherInstrumentByItsRings) {
+  const RenderedPhoto photo = RenderScene(SmallScene());
+  const int pivot = static_cast<int>(photo.truth.pivot_px.x());
+  cv::Mat bladeless = photo.bgr.clone(), two;
+  bladeless.colRange(pivot - 60, bladeless.cols) = cv::mean(photo.bgr.col(0));
+  cv::vconcat(photo.bgr, bladeless, two);
+  EXPECT_EQ(ReasonFor(two), "several_scissors");
+  SceneHints hints;
+  hints.pivot_px = photo.truth.pivot_px;
+  EXPECT_EQ(ReasonFor(two, hints), "");
+}
+
 // It could not be measured, so that it is not meant; nor are lines that cross at a picture's
 // border.
 TEST(SceneFinder, TakesTheWholePairBesideOneWhoseBladesRunOut) {

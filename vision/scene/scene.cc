@@ -175,6 +175,14 @@ std::string WhatMarkersDo(const std::vector<SeenMarker>& markers) {
 
 const char* WhereLooked(const StoredHints& hints) { return hints.roi_px ? "--roi" : "the picture"; }
 
+// Whether more finger rings are seen than a pair of scissors has: clamps have them, too. Not where
+// the user points at one of several, nor where the others are of a pair that is not meant.
+bool ShowsRingsOfOthers(const LadderResult& ladder, const StoredHints& hints) {
+  constexpr int kOfOnePair = 2;
+  const bool points = hints.pivot_px || hints.tips_direction;
+  return !points && ladder.rings > kOfOnePair && !ShowsOneCutOff(ladder);
+}
+
 void RefuseUnlessUsable(const LadderResult& ladder,
                         const std::vector<SeenMarker>& markers,
                         const StoredHints& hints) {
@@ -210,10 +218,12 @@ void RefuseUnlessUsable(const LadderResult& ladder,
                   "shanks, take a picture with both tips inside the frame; if they are the blades, "
                   "say where their tips point: --tips-toward left, right, up or down");
   }
-  if (ladder.several) {
+  if (ladder.several || ShowsRingsOfOthers(ladder, hints)) {
     throw Refused(Reason::kSeveralScissors,
-                  std::string("scene: more than one pair of scissors in ") + WhereLooked(hints) +
-                      "; choose one with a " + (hints.roi_px ? "smaller " : "") + "--roi X,Y,W,H");
+                  std::string("scene: more than one pair of scissors, or another instrument with "
+                              "finger rings, in ") +
+                      WhereLooked(hints) + "; choose one with a " +
+                      (hints.roi_px ? "smaller " : "") + "--roi X,Y,W,H");
   }
 }
 

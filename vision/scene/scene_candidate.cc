@@ -312,6 +312,7 @@ void Add(Rung seen, Rung* rung) {
   std::move(seen.candidates.begin(), seen.candidates.end(), std::back_inserter(rung->candidates));
   rung->closed += seen.closed;
   rung->contradicting = std::max(rung->contradicting, seen.contradicting);
+  rung->rings = std::max(rung->rings, seen.rings);
   CountAgreeing(&rung->candidates);
   std::move(seen.touching.begin(), seen.touching.end(), std::back_inserter(rung->touching));
   CountAgreeing(&rung->touching);

@@ -45,9 +45,10 @@ struct Rung {
   // What else things show if their handles touch. A blade beside its shadow looks so, too.
   std::vector<Candidate> touching;
   std::vector<Candidate> unresolved;  // masks in which no pair is likely, without pairs
-  int closed = 0;            // masks in which something looks like closed scissors
-  double contradicting = 0;  // quality of the likeliest pair that hints speak against
-  cv::Mat distance;          // from the background, or how sharply it is walled in; CV_32FC1
+  int closed = 0;                     // masks in which something looks like closed scissors
+  double contradicting = 0;           // quality of the likeliest pair that hints speak against
+  int rings = 0;                      // finger rings, in the mask that shows most of them
+  cv::Mat distance;  // from the background, or how sharply it is walled in; CV_32FC1
 };
 
 // What one mask shows and does not contradict the hints; `like` gives picture, method and

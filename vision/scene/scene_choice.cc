@@ -98,6 +98,12 @@ bool ShareTip(const Candidate& a, const Candidate& b) {
   return near(a.pair.first.tip, b.pair.first.tip) || near(a.pair.second.tip, b.pair.second.tip);
 }
 
+bool LieApart(const Candidate& c, const Candidate& best) {
+  const double apart_px =
+      (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
+  return apart_px > FullSize(best) && !ShareTip(c, best);
+}
+
 // Whether `c` shows a second pair of scissors beside the best: as good a one elsewhere, or a
 // poorer one that is a thing of its own, and no texture. Beside a whole one that is beyond doubt,
 // one whose blades run out of the picture is not meant; lines of a cutting mat that cross at the
@@ -105,9 +111,7 @@ bool ShareTip(const Candidate& a, const Candidate& b) {
 bool IsSecondPair(const Candidate& c, const Candidate& best) {
   constexpr double kLikely = 0.3, kBeyondDoubt = 0.85;  // quality
   constexpr double kSmallest = 0.4, kFaintest = 0.2;    // of the best
-  const double apart_px =
-      (c.at->FullFromSmall(c.pair.pivot) - best.at->FullFromSmall(best.pair.pivot)).norm();
-  if (apart_px <= FullSize(best) || ShareTip(c, best)) return false;
+  if (!LieApart(c, best)) return false;
   if (best.pair.quality > kSurelyScissors && RunsOut(c.pair) && !RunsOut(best.pair)) return false;
   const bool seen_alike =
       c.pair.quality > kSurelyScissors && c.agreeing >= 2 && c.method == best.method;
@@ -125,6 +129,7 @@ LadderResult Keeping(const LadderResult& result, const IsKept& is_kept) {
   std::copy_if(result.seen.begin(), result.seen.end(), std::back_inserter(kept), is_kept);
   LadderResult next = Choose(kept);
   next.closed = result.closed;
+  next.rings = result.rings;
   next.seen = std::move(kept);
   next.unresolved = result.unresolved;
   return next;
@@ -155,6 +160,12 @@ bool Consistent(const LadderResult& result) {
 bool ShowsWholeBlades(const LadderResult& result) {
   const BladePair& pair = result.best.pair;
   return pair.quality >= kAcceptedQuality && !RunsOut(pair);
+}
+
+bool ShowsOneCutOff(const LadderResult& result) {
+  return std::any_of(result.seen.begin(), result.seen.end(), [&](const Candidate& c) {
+    return c.pair.quality >= kAcceptedQuality && RunsOut(c.pair) && LieApart(c, result.best);
+  });
 }
 
 bool ShowsAnother(const Candidate& best) {

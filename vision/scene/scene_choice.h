@@ -12,6 +12,7 @@ namespace bladecurve {
 struct LadderResult {
   Candidate best;               // quality 0 if nothing was found
   bool several = false;         // two good pairs in different places
+  int rings = 0;                // finger rings that are seen
   bool closed = false;          // something looks like closed scissors, in several masks of a rung
   std::vector<Candidate> seen;  // by all rungs, the best among them
   std::vector<Candidate> unresolved;  // masks in which handles may lie on something
@@ -26,6 +27,9 @@ struct LadderResult {
 
 // Whether blades were found that could be measured.
 [[nodiscard]] bool ShowsWholeBlades(const LadderResult& result);
+
+// Whether another pair is seen whose blades run out of the picture: it is not meant.
+[[nodiscard]] bool ShowsOneCutOff(const LadderResult& result);
 
 // Whether the mask shows another thing that is no sheet, label or ruler, which fill their outlines:
 // another instrument, perhaps not all of it.

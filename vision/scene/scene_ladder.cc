@@ -26,8 +26,10 @@ LadderResult Consider(const std::vector<Rung>& stage, Rung* all) {
     all->unresolved.insert(all->unresolved.end(), rung.unresolved.begin(), rung.unresolved.end());
     all->closed = std::max(all->closed, rung.closed);
     all->contradicting = std::max(all->contradicting, rung.contradicting);
+    all->rings = std::max(all->rings, rung.rings);
   }
   LadderResult result = Choose(all->candidates);
+  result.rings = all->rings;
   constexpr int kAgreeing = 3;  // fewer masks may show by chance what looks like that
   result.closed = all->closed >= kAgreeing && all->contradicting < kAcceptedQuality;
   return result;
@@ -210,6 +212,7 @@ LadderResult SceneLadder::ClimbIn(Plan plan, Looked* looked, Rung* all) {
   PreferCaster(by_colour, &in_colour);
   if (grey_suffices && !full) {
     result.several = result.several || in_colour.several;
+    result.rings = in_colour.rings;
     return result;
   }
   result = in_colour;

@@ -13,6 +13,7 @@
 #include "vision/image/nearest_pixel.h"
 #include "vision/image/smoothed.h"
 #include "vision/parallel.h"
+#include "vision/scene/finger_rings.h"
 #include "vision/scene/flood.h"
 #include "vision/scene/graph_cut.h"
 #include "vision/scene/region_merging.h"
@@ -62,7 +63,10 @@ Rung ThresholdAll(const cv::Mat& distance,
     std::vector<Rung> seen = ParallelMap(count, [&](int i) {
       Candidate at_threshold = like;
       at_threshold.threshold = thresholds[static_cast<std::size_t>(first + i)];
-      return SeenIn(MaskAbove(smooth, at_threshold.threshold), at_threshold, hidden, hints);
+      const cv::Mat mask = MaskAbove(smooth, at_threshold.threshold);
+      Rung seen = SeenIn(mask, at_threshold, hidden, hints);
+      seen.rings = CountFingerRings(mask);
+      return seen;
     });
     for (Rung& mask : seen) {
       if (Settled(rung.candidates)) break;
