@@ -43,6 +43,12 @@ TEST(CountFingerRings, LeavesOutHolesThatAreNoRings) {
   EXPECT_EQ(CountFingerRings(plate), 0) << "without a wall about them";
 }
 
+TEST(CountFingerRings, CountsTheTwoLinesOfARoundOneOnce) {
+  cv::Mat mask = Rings(2, {70, 70}, 5);
+  for (const int x : {80, 80 + kBetweenPx}) cv::circle(mask, {x, 120}, 26, 255, 3);
+  EXPECT_EQ(CountFingerRings(mask), 2);
+}
+
 TEST(CountFingerRings, CountsThoseThatAreAlike) {
   cv::Mat mask = Rings(2, {60, 60});
   cv::circle(mask, {500, 120}, 20, 255, 8);

@@ -58,6 +58,16 @@ double WalledShare(const cv::Mat& mask, const Contour& hole, const cv::Point2d& 
   return static_cast<double>(walled) / std::max(1, places);
 }
 
+struct Ring {
+  cv::Point2d center;
+  double diameter = 0;
+};
+
+// Whether both are borders of one: the ridge of a round one may look like its ground.
+bool AreOne(const Ring& a, const Ring& b) {
+  return cv::norm(a.center - b.center) < 0.5 * std::min(a.diameter, b.diameter);
+}
+
 }  // namespace
 
 int CountFingerRings(const cv::Mat& mask) {
@@ -69,20 +79,24 @@ int CountFingerRings(const cv::Mat& mask) {
   std::vector<Contour> contours;
   std::vector<cv::Vec4i> tree;
   cv::findContours(mask, contours, tree, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
-  std::vector<double> diameters;
+  std::vector<Ring> rings;
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (tree[i][3] < 0 || contours[i].size() < kFewest) continue;  // no hole, or too small
     const double diameter = std::sqrt(4 / std::numbers::pi * cv::contourArea(contours[i]));
     if (diameter < kSmallest * side_px || diameter > kLargest * side_px) continue;
     const cv::RotatedRect ellipse = cv::fitEllipse(contours[i]);
-    if (IsEllipse(contours[i], ellipse) &&
-        WalledShare(mask, contours[i], cv::Point2d(ellipse.center)) > kWalled)
-      diameters.push_back(diameter);
+    const Ring ring{cv::Point2d(ellipse.center), diameter};
+    const auto is_same = [&](const Ring& other) { return AreOne(ring, other); };
+    if (IsEllipse(contours[i], ellipse) && WalledShare(mask, contours[i], ring.center) > kWalled &&
+        std::none_of(rings.begin(), rings.end(), is_same))
+      rings.push_back(ring);
   }
   std::ptrdiff_t most = 0;
-  for (const double smallest : diameters) {
-    const auto alike = [&](double d) { return d >= smallest && d < kAlike * smallest; };
-    most = std::max(most, std::count_if(diameters.begin(), diameters.end(), alike));
+  for (const Ring& smallest : rings) {
+    const auto alike = [&](const Ring& ring) {
+      return ring.diameter >= smallest.diameter && ring.diameter < kAlike * smallest.diameter;
+    };
+    most = std::max(most, std::count_if(rings.begin(), rings.end(), alike));
   }
   return static_cast<int>(most);
 }
