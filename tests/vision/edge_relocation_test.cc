@@ -355,11 +355,13 @@ TEST(RelocateUnlikeEdges, TakesNothingThatIsBrighterThanTheGroundForItsShadow) {
   EXPECT_EQ(measured.blades.lower.moved, "");
 }
 
+constexpr int kAboutCrotchPx = 40;
+
 // Where the blades cross, as the scene without a bevel shows it.
 void RestoreCrotch(const Measured& measured,
                    const SceneSpec& spec,
                    cv::Mat* picture,
-                   int about_px = 40) {
+                   int about_px = kAboutCrotchPx) {
   const Vector2d crotch = measured.blades.lower.used.front().trend_px;
   const cv::Rect about(static_cast<int>(crotch.x()) - about_px,
                        static_cast<int>(crotch.y()) - about_px,
@@ -397,7 +399,7 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeBeyondABevelThatMirrorsTheGroundWithoutMar
 // the blade was taken for the edge; measured as the lower one.
 Measured WithDarkBevelBelow(double darker,
                             SceneSpec spec = SceneWithMarkers(),
-                            int about_crotch_px = 40) {
+                            int about_crotch_px = kAboutCrotchPx) {
   spec.scissors.upper_on_top = false;
   Measured measured{spec};
   cv::Mat picture = testing::Grained(testing::BrightenedAlongUpperEdge(
@@ -436,12 +438,12 @@ TEST(RelocateUnlikeEdges, FindsTheEdgeAlongAFaintLineFurtherOutWithoutMarkers) {
 // What lies beyond it is ground, not a bevel.
 TEST(RelocateUnlikeEdges, LeavesNoEdgeAtWhichTheGroundsColourEnds) {
   constexpr double kDarker = 12;
-  constexpr int kAboutCrotchPx = 20;  // where the colour ends further out
+  constexpr int kNearCrotchPx = 20;  // where the colour ends further out
   for (const Eigen::Vector3d& rgb : {Eigen::Vector3d(0.25, 0.25, 0.25), {0.1, 0.3, 0.2}}) {
     SceneSpec spec = SceneWithMarkers();
     spec.backdrop = Backdrop::kDrape;
     spec.drape_rgb = rgb;
-    Measured measured = WithDarkBevelBelow(kDarker, spec, kAboutCrotchPx);
+    Measured measured = WithDarkBevelBelow(kDarker, spec, kNearCrotchPx);
     LocatedBlade& lower = measured.blades.lower;
     AddRival(&lower.edge, testing::kBevelPx - 1.5);
     Relocate(&measured);

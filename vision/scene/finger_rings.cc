@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 namespace bladecurve {
@@ -45,52 +46,63 @@ bool IsWalled(const cv::Mat& mask,
   return false;
 }
 
-// Of its border, the share beyond which there is a wall; shanks join it somewhere.
-double WalledShare(const cv::Mat& mask, const Contour& hole, const cv::Point2d& center) {
-  constexpr double kThickest = 0.6;  // of the hole's diameter
+struct Ring {
+  cv::Point2d center;
+  double diameter = 0;  // of the hole
+};
+
+// Of a hole's border, the share beyond which there is a wall; shanks join it somewhere.
+double WalledShare(const cv::Mat& mask, const Contour& hole, const Ring& ring) {
+  constexpr double kThickest = 0.6;  // of the diameter
   constexpr std::size_t kStride = 4;
-  const double thickest_px = kThickest * std::sqrt(4 / std::numbers::pi * cv::contourArea(hole));
   int walled = 0, places = 0;
   for (std::size_t i = 0; i < hole.size(); i += kStride, ++places) {
-    const cv::Point2d from = cv::Point2d(hole[i]) - center;
-    walled += IsWalled(mask, hole[i], from / std::max(1.0, cv::norm(from)), thickest_px);
+    const cv::Point2d from = cv::Point2d(hole[i]) - ring.center;
+    walled +=
+        IsWalled(mask, hole[i], from / std::max(1.0, cv::norm(from)), kThickest * ring.diameter);
   }
   return static_cast<double>(walled) / std::max(1, places);
 }
 
-struct Ring {
-  cv::Point2d center;
-  double diameter = 0;
-};
+// The ring about a hole, if it is one.
+std::optional<Ring> RingAbout(const cv::Mat& mask, const Contour& hole) {
+  constexpr double kSmallest = 0.03, kLargest = 0.25;  // of the picture's longer side, diameters
+  constexpr double kWalled = 0.7;
+  constexpr std::size_t kFewest = 20;  // places on the border
+  if (hole.size() < kFewest) return std::nullopt;
+  const double side_px = std::max(mask.cols, mask.rows);
+  const double diameter = std::sqrt(4 / std::numbers::pi * cv::contourArea(hole));
+  if (diameter < kSmallest * side_px || diameter > kLargest * side_px) return std::nullopt;
+  const cv::RotatedRect ellipse = cv::fitEllipse(hole);
+  const Ring ring{cv::Point2d(ellipse.center), diameter};
+  const bool is_ring = IsEllipse(hole, ellipse) && WalledShare(mask, hole, ring) > kWalled;
+  return is_ring ? std::optional(ring) : std::nullopt;
+}
 
 // Whether both are borders of one: the ridge of a round one may look like its ground.
 bool AreOne(const Ring& a, const Ring& b) {
   return cv::norm(a.center - b.center) < 0.5 * std::min(a.diameter, b.diameter);
 }
 
-}  // namespace
-
-int CountFingerRings(const cv::Mat& mask) {
-  constexpr double kSmallest = 0.03, kLargest = 0.25;  // of the picture's longer side, diameters
-  constexpr double kWalled = 0.7;
-  constexpr std::size_t kFewest = 20;  // places on a border
-  constexpr double kAlike = 1.7;       // ratio of diameters
-  const double side_px = std::max(mask.cols, mask.rows);
+std::vector<Ring> RingsIn(const cv::Mat& mask) {
   std::vector<Contour> contours;
   std::vector<cv::Vec4i> tree;
   cv::findContours(mask, contours, tree, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE);
   std::vector<Ring> rings;
   for (std::size_t i = 0; i < contours.size(); ++i) {
-    if (tree[i][3] < 0 || contours[i].size() < kFewest) continue;  // no hole, or too small
-    const double diameter = std::sqrt(4 / std::numbers::pi * cv::contourArea(contours[i]));
-    if (diameter < kSmallest * side_px || diameter > kLargest * side_px) continue;
-    const cv::RotatedRect ellipse = cv::fitEllipse(contours[i]);
-    const Ring ring{cv::Point2d(ellipse.center), diameter};
-    const auto is_same = [&](const Ring& other) { return AreOne(ring, other); };
-    if (IsEllipse(contours[i], ellipse) && WalledShare(mask, contours[i], ring.center) > kWalled &&
-        std::none_of(rings.begin(), rings.end(), is_same))
-      rings.push_back(ring);
+    const bool is_hole = tree[i][3] >= 0;
+    const auto ring = is_hole ? RingAbout(mask, contours[i]) : std::nullopt;
+    const auto is_same = [&](const Ring& other) { return AreOne(*ring, other); };
+    if (ring && std::none_of(rings.begin(), rings.end(), is_same)) rings.push_back(*ring);
   }
+  return rings;
+}
+
+}  // namespace
+
+int CountFingerRings(const cv::Mat& mask) {
+  constexpr double kAlike = 1.7;  // ratio of diameters
+  const std::vector<Ring> rings = RingsIn(mask);
   std::ptrdiff_t most = 0;
   for (const Ring& smallest : rings) {
     const auto alike = [&](const Ring& ring) {
