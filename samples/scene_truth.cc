@@ -10,37 +10,37 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json Point(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
+Json PointJson(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
-Json Points(const std::vector<Eigen::Vector2d>& points) {
+Json PointsJson(const std::vector<Eigen::Vector2d>& points) {
   Json list = Json::array();
-  for (const Eigen::Vector2d& p : points) list.push_back(Point(p));
+  for (const Eigen::Vector2d& p : points) list.push_back(PointJson(p));
   return list;
 }
 
-Json Matrix(const Eigen::Matrix3d& m) {
+Json MatrixJson(const Eigen::Matrix3d& m) {
   Json rows = Json::array();
   for (int r = 0; r < 3; ++r) rows.push_back({m(r, 0), m(r, 1), m(r, 2)});
   return rows;
 }
 
-Json Edge(const EdgeTruth& edge, double height_mm) {
+Json EdgeJson(const EdgeTruth& edge, double height_mm) {
   return {{"z_world_mm", height_mm},
           {"bernstein_mm", edge.shape.bernstein_mm},
           {"u_range_mm", {edge.shape.from_mm, edge.shape.to_mm}},
           {"free_u_range_mm", {edge.free_from_mm, edge.shape.to_mm}},
-          {"end_px", Point(edge.end_px)},
-          {"blade_mm", Points(edge.blade_mm)},
-          {"scissors_mm", Points(edge.scissors_mm)},
-          {"px", Points(edge.px)}};
+          {"end_px", PointJson(edge.end_px)},
+          {"blade_mm", PointsJson(edge.blade_mm)},
+          {"scissors_mm", PointsJson(edge.scissors_mm)},
+          {"px", PointsJson(edge.px)}};
 }
 
-Json Markers(const std::vector<MarkerTruth>& markers) {
+Json MarkersJson(const std::vector<MarkerTruth>& markers) {
   if (markers.empty()) return nullptr;
   Json list = Json::array();
   for (const MarkerTruth& marker : markers) {
     Json corners = Json::array();
-    for (const Eigen::Vector2d& corner : marker.corners_px) corners.push_back(Point(corner));
+    for (const Eigen::Vector2d& corner : marker.corners_px) corners.push_back(PointJson(corner));
     list.push_back({{"id", marker.id}, {"size_mm", marker.size_mm}, {"corners_px", corners}});
   }
   return {{"dictionary", "DICT_4X4_50"},
@@ -49,11 +49,11 @@ Json Markers(const std::vector<MarkerTruth>& markers) {
           {"markers", list}};
 }
 
-Json Camera(const CameraTruth& camera) {
+Json CameraJson(const CameraTruth& camera) {
   const Eigen::Vector3d& t = camera.world_in_camera_mm;
   return {{"type", "persp"},
-          {"K", Matrix(camera.k)},
-          {"R_world_to_cam", Matrix(camera.camera_from_world)},
+          {"K", MatrixJson(camera.k)},
+          {"R_world_to_cam", MatrixJson(camera.camera_from_world)},
           {"t_world_to_cam", {t.x(), t.y(), t.z()}},
           {"distortion", {{"k1", camera.k1}}}};
 }
@@ -61,21 +61,21 @@ Json Camera(const CameraTruth& camera) {
 }  // namespace
 
 Json SceneTruthJson(const SceneTruth& truth, const std::string& file, const std::string& expect) {
-  return {
-      {"schema", "scissors-heldout/1"},
-      {"expect", expect},
-      {"image", {{"file", file}, {"width", truth.width}, {"height", truth.height}}},
-      {"units", "mm, degrees"},
-      {"theta_deg", truth.theta_rad * 180 / std::numbers::pi},
-      {"pivot", {{"px", Point(truth.pivot_px)}, {"screw_top_center_px", Point(truth.screw_px)}}},
-      {"symmetry_axis", {{"dir_px", Point(truth.axis_px)}}},
-      {"scale",
-       {{"known_mm_per_px", nullptr},
-        {"mm_per_px_edge_plane", {{"at_pivot_along_axis", truth.mm_per_px}}}}},
-      {"camera", Camera(truth.camera)},
-      {"marker", Markers(truth.markers)},
-      {"edge_upper", Edge(truth.upper, truth.edge_height_mm)},
-      {"edge_lower", Edge(truth.lower, truth.edge_height_mm)}};
+  return {{"schema", "scissors-heldout/1"},
+          {"expect", expect},
+          {"image", {{"file", file}, {"width", truth.width}, {"height", truth.height}}},
+          {"units", "mm, degrees"},
+          {"theta_deg", truth.theta_rad * 180 / std::numbers::pi},
+          {"pivot",
+           {{"px", PointJson(truth.pivot_px)}, {"screw_top_center_px", PointJson(truth.screw_px)}}},
+          {"symmetry_axis", {{"dir_px", PointJson(truth.axis_px)}}},
+          {"scale",
+           {{"known_mm_per_px", nullptr},
+            {"mm_per_px_edge_plane", {{"at_pivot_along_axis", truth.mm_per_px}}}}},
+          {"camera", CameraJson(truth.camera)},
+          {"marker", MarkersJson(truth.markers)},
+          {"edge_upper", EdgeJson(truth.upper, truth.edge_height_mm)},
+          {"edge_lower", EdgeJson(truth.lower, truth.edge_height_mm)}};
 }
 
 }  // namespace bladecurve

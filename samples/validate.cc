@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <map>
@@ -33,7 +34,7 @@ namespace fs = std::filesystem;
 struct ValidateCommand {
   int scenes = 50;
   std::uint64_t seed = 1;
-  std::string difficulty = "standard", blade, csv, plot;
+  std::string difficulty = "standard", blade, photographs, csv, plot;
   int threads = 1;
   bool quiet = false, no_times = false;
 };
@@ -53,18 +54,32 @@ void ShowProgress(int done, int of) {
   std::cerr << "\r" << done << " of " << of << " scenes" << (done == of ? "\n" : "") << std::flush;
 }
 
-std::vector<ValidationRow> RunScenes(const ValidateCommand& command) {
-  const ScratchFolder folder("validate");
-  std::vector<ValidationRow> rows(static_cast<std::size_t>(command.scenes));
+// Of `count` scenes, several at a time.
+std::vector<ValidationRow> RunAll(const ValidateCommand& command,
+                                  int count,
+                                  const std::function<ValidationRow(int)>& validate) {
+  std::vector<ValidationRow> rows(static_cast<std::size_t>(count));
   std::atomic<int> done = 0;
-  const Difficulty difficulty = Difficulties().at(command.difficulty);
-  ParallelFor(command.scenes, command.threads, [&](int number) {
-    rows[static_cast<std::size_t>(number)] =
-        ValidateScene(MakeValidationScene(number, command.seed, difficulty), folder.path());
+  ParallelFor(count, command.threads, [&](int number) {
+    rows[static_cast<std::size_t>(number)] = validate(number);
     const int so_far = ++done;
-    if (!command.quiet) ShowProgress(so_far, command.scenes);
+    if (!command.quiet) ShowProgress(so_far, count);
   });
   return rows;
+}
+
+std::vector<ValidationRow> Run(const ValidateCommand& command) {
+  const ScratchFolder folder("validate");
+  if (!command.photographs.empty()) {
+    const std::vector<PhotographWithTruth> photographs = PhotographsWithTruth(command.photographs);
+    return RunAll(command, static_cast<int>(photographs.size()), [&](int number) {
+      return ValidatePhotograph(photographs[static_cast<std::size_t>(number)], folder.path());
+    });
+  }
+  const Difficulty difficulty = Difficulties().at(command.difficulty);
+  return RunAll(command, command.scenes, [&](int number) {
+    return ValidateScene(MakeValidationScene(number, command.seed, difficulty), folder.path());
+  });
 }
 
 // Before scenes are rendered for minutes whose results nobody could read.
@@ -81,7 +96,7 @@ int RunValidate(const ValidateCommand& command) {
     return kExitOk;
   }
   RequirePossible(command);
-  const std::vector<ValidationRow> rows = RunScenes(command);
+  const std::vector<ValidationRow> rows = Run(command);
   if (command.csv == "-") {
     std::cout << ValidationCsv(rows, !command.no_times);
   } else {
@@ -113,6 +128,12 @@ void AddValidate(CLI::App& app, int* exit_code) {
                   "Which range scenes are drawn from: clean, standard, hard or sun")
       ->check(CLI::IsMember(Difficulties()))
       ->capture_default_str();
+  CLI::Option* photographs =
+      sub->add_option("--photographs",
+                      command->photographs,
+                      "Instead of rendering, those of this folder that have NAME.truth.json "
+                      "beside them")
+          ->check(CLI::ExistingDirectory);
   sub->add_option("--csv", command->csv, "One line a scene; '-': standard output, no table");
   sub->add_option("--plot", command->plot, "Work-precision plot, FILE.svg");
   sub->add_option("--threads", command->threads, "Scenes at a time; more disturb the times")
@@ -122,6 +143,9 @@ void AddValidate(CLI::App& app, int* exit_code) {
   for (const char* of_scenes :
        {"--scenes", "--seed", "--difficulty", "--csv", "--plot", "--threads", "--no-times"})
     blade->excludes(sub->get_option(of_scenes));
+  blade->excludes(photographs);
+  for (const char* of_drawing : {"--scenes", "--seed", "--difficulty"})
+    photographs->excludes(sub->get_option(of_drawing));
   sub->callback([command, exit_code] { *exit_code = RunValidate(*command); });
 }
 

@@ -111,7 +111,7 @@ std::string DrawPanel(const std::vector<ValidationRow>& rows,
         row.outcome,
         panel.X(row.ms),
         panel.Y(row.Of(quantity).size),
-        row.number);
+        row.scene);
   }
   return svg + fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>ms</text>\n",
                            left + kLeft + (kPanelWidth - kLeft - kRight) / 2,

@@ -4,8 +4,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
+#include <utility>
 
+#include "model/degrees.h"
 #include "samples/analysis.h"
 #include "samples/validation_errors.h"
 #include "vision/photo/whole_file.h"
@@ -18,21 +19,27 @@ namespace fs = std::filesystem;
 
 constexpr int kJpegQuality = 95;
 
+void WriteCalibration(const fs::path& path, const SceneTruth& truth, const CameraTruth& camera) {
+  const Eigen::Matrix3d& k = camera.k;
+  const nlohmann::json calibration = {
+      {"width", truth.width},
+      {"height", truth.height},
+      {"K",
+       {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
+      {"dist", {camera.k1, 0, 0, 0}}};
+  WriteFileWhole(path, calibration.dump());
+}
+
 // Files of one scene; gone when this goes.
 class SceneFiles {
  public:
   SceneFiles(const RenderedPhoto& photo, const ValidationScene& scene, const fs::path& stem)
       : photo_(stem.string() + ".jpg"), camera_(stem.string() + ".camera.json") {
     WriteFileWhole(photo_, EncodeJpeg(photo.bgr, kJpegQuality));
-    Eigen::Matrix3d k = photo.truth.camera.k;
-    k.diagonal().head<2>() *= 1 + scene.focal_error;
-    const nlohmann::json calibration = {
-        {"width", photo.truth.width},
-        {"height", photo.truth.height},
-        {"K",
-         {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
-        {"dist", {photo.truth.camera.k1 + scene.k1_error, 0, 0, 0}}};
-    WriteFileWhole(camera_, calibration.dump());
+    CameraTruth calibrated = photo.truth.camera;
+    calibrated.k.diagonal().head<2>() *= 1 + scene.focal_error;
+    calibrated.k1 += scene.k1_error;
+    WriteCalibration(camera_, photo.truth, calibrated);
   }
   ~SceneFiles() {
     std::error_code ignored;
@@ -49,6 +56,7 @@ class SceneFiles {
   fs::path photo_, camera_;
 };
 
+// What the program is told of a picture's scale and camera.
 AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& files) {
   const SceneSpec& spec = scene.spec;
   AnalysisSettings settings;
@@ -59,6 +67,19 @@ AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& fil
   settings.measure.scale.marker_mm = spec.markers.front().size_mm;
   settings.measure.scale.plane_height_mm = spec.edge_height_mm + scene.height_error_mm;
   if (scene.camera_known) settings.measure.scale.camera = files.camera();
+  return settings;
+}
+
+AnalysisSettings SettingsFor(const PhotographWithTruth& photograph, const fs::path& camera) {
+  const SceneTruth& truth = photograph.truth;
+  AnalysisSettings settings;
+  if (truth.markers.empty()) {
+    settings.measure.scale.mm_per_px = truth.mm_per_px;
+    return settings;
+  }
+  settings.measure.scale.marker_mm = truth.markers.front().size_mm;
+  settings.measure.scale.plane_height_mm = truth.edge_height_mm;
+  if (photograph.camera_known) settings.measure.scale.camera = camera;
   return settings;
 }
 
@@ -76,26 +97,51 @@ std::vector<std::string> WarningsOf(const Analysis& analysis) {
   return warnings;
 }
 
+ValidationRow RowFor(std::string scene, std::string expected, const SceneTruth& truth) {
+  ValidationRow row;
+  row.scene = std::move(scene);
+  row.expected = std::move(expected);
+  row.theta_deg = truth.theta_rad * kDegPerRad;
+  return row;
+}
+
+// Completes the row by what the program makes of the photograph.
+ValidationRow Compared(ValidationRow row,
+                       const fs::path& photo,
+                       const AnalysisSettings& settings,
+                       const SceneTruth& truth) {
+  try {
+    const Analysis analysis = AnalyzeScissors({photo}, settings);
+    row.warnings = WarningsOf(analysis);
+    row.outcome = row.warnings.empty() ? "ok" : "review";
+    row.ms = analysis.photos.front().ms_total + analysis.fit_ms;
+    row.errors = CompareWithTruth(analysis, truth);
+  } catch (const PhotoRefused& refusal) {
+    row.outcome = std::string(ReasonCode(refusal.reason()));
+    row.detail = WithoutFolder(refusal.what(), photo.parent_path());
+  }
+  return row;
+}
+
 }  // namespace
 
 ValidationRow ValidateScene(const ValidationScene& scene, const fs::path& folder) {
   const RenderedPhoto photo = RenderScene(scene.spec);
-  const SceneFiles files(photo, scene, folder / ("scene-" + std::to_string(scene.number)));
-  ValidationRow row;
-  row.number = scene.number;
-  row.expected = scene.refuse ? std::string(ReasonCode(*scene.refuse)) : "ok";
-  row.theta_deg = scene.spec.theta_rad * 180 / std::numbers::pi;
-  try {
-    const Analysis analysis = AnalyzeScissors({files.photo()}, SettingsFor(scene, files));
-    row.warnings = WarningsOf(analysis);
-    row.outcome = row.warnings.empty() ? "ok" : "review";
-    row.ms = analysis.photos.front().ms_total + analysis.fit_ms;
-    row.errors = CompareWithTruth(analysis, photo.truth);
-  } catch (const PhotoRefused& refusal) {
-    row.outcome = std::string(ReasonCode(refusal.reason()));
-    row.detail = WithoutFolder(refusal.what(), folder);
-  }
-  return row;
+  const std::string number = std::to_string(scene.number);
+  const SceneFiles files(photo, scene, folder / ("scene-" + number));
+  const std::string expected = scene.refuse ? std::string(ReasonCode(*scene.refuse)) : "ok";
+  return Compared(
+      RowFor(number, expected, photo.truth), files.photo(), SettingsFor(scene, files), photo.truth);
+}
+
+ValidationRow ValidatePhotograph(const PhotographWithTruth& photograph, const fs::path& folder) {
+  const std::string name = photograph.photo.stem().string();
+  const fs::path camera = folder / (name + ".camera.json");
+  WriteCalibration(camera, photograph.truth, photograph.truth.camera);
+  return Compared(RowFor(name, photograph.to_refuse ? kAnyReason : "ok", photograph.truth),
+                  photograph.photo,
+                  SettingsFor(photograph, camera),
+                  photograph.truth);
 }
 
 }  // namespace bladecurve

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "samples/photographs_with_truth.h"
 #include "samples/validation_scene.h"
 
 namespace bladecurve {
@@ -29,9 +30,11 @@ struct QuantityErrors {
   std::vector<StatedError> stated;  // of its components; empty where no uncertainty is stated
 };
 
+inline constexpr const char* kAnyReason = "refuse";
+
 struct ValidationRow {
-  int number = 0;
-  std::string expected;  // "ok" or the reason code that is right
+  std::string scene;     // its number, or the photograph's name
+  std::string expected;  // "ok", the reason code that is right, or kAnyReason
   std::string outcome;   // "ok", "review" or the reason code that came
   std::vector<std::string> warnings;
   std::string detail;                                    // what the refusal says
@@ -50,5 +53,10 @@ struct ValidationRow {
 // compares the result with the truth. The file is removed again.
 [[nodiscard]] ValidationRow ValidateScene(const ValidationScene& scene,
                                           const std::filesystem::path& folder);
+
+// The same of a photograph that exists, told what its truth says of markers, camera and height; the
+// camera's file is left in `folder`.
+[[nodiscard]] ValidationRow ValidatePhotograph(const PhotographWithTruth& photograph,
+                                               const std::filesystem::path& folder);
 
 }  // namespace bladecurve

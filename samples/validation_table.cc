@@ -72,7 +72,7 @@ std::string RefusalTable(const std::vector<ValidationRow>& rows) {
       if (!row.measured()) ++wrongly[row.outcome];
     } else if (row.measured()) {
       ++accepted;
-    } else if (row.outcome == row.expected) {
+    } else if (row.outcome == row.expected || row.expected == kAnyReason) {
       ++rightly[row.outcome];
     } else {
       ++other_reason[row.outcome + " for " + row.expected];
@@ -182,7 +182,7 @@ std::string ValidationCsv(const std::vector<ValidationRow>& rows, bool with_time
   std::string text = CsvLine(head);
   for (const ValidationRow& row : rows) {
     std::vector<std::string> fields = {
-        fmt::format("{}", row.number), row.expected, row.outcome, CsvNumber(row.theta_deg)};
+        row.scene, row.expected, row.outcome, CsvNumber(row.theta_deg)};
     for (const Quantity quantity : kAll) {
       fields.push_back(CsvNumber(row.Of(quantity).size));
       fields.push_back(CsvSigmas(row.Of(quantity)));

@@ -83,7 +83,7 @@ void ExpectIntervalsAreNotMuchTooWide(const Rows& rows) {
 // One test, for every test renders its scenes anew.
 TEST(ValidateScene, MeasuresStandardScenesWithinTheGoalsAndItsSigmas) {
   const Rows rows = Measured();
-  for (const ValidationRow& row : rows) ASSERT_TRUE(row.measured()) << row.number << row.detail;
+  for (const ValidationRow& row : rows) ASSERT_TRUE(row.measured()) << row.scene << row.detail;
   ExpectMedianErrorsReachTheGoals(rows);
   ExpectMostIntervalsHoldTheTruth(rows);
   ExpectIntervalsAreNotMuchTooWide(rows);

@@ -25,7 +25,7 @@ namespace {
 
 ValidationRow Measured(int number, double error, double sigma) {
   ValidationRow row;
-  row.number = number;
+  row.scene = std::to_string(number);
   row.expected = "ok";
   row.outcome = "ok";
   row.ms = 10 + number;
