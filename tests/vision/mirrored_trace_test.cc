@@ -170,6 +170,30 @@ TEST(FindMirroredTrace, TakesNoLineInOverexposedLight) {
   EXPECT_FALSE(TakesLineBeside(9, 1, kWhitens));
 }
 
+// Where nothing was found of the upper edge, its own line may be what is seen.
+TEST(FindMirroredTrace, TakesNoLineWhereTheInnerEdgeWasNotFound) {
+  constexpr double kOffPx = 9, kDifferencePx = 6;
+  constexpr double kSeen = 0.75;  // of the line, from the crotch on
+  const auto takes = [&](double found_from) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    const LocatedBlade& lower = measured.blades.lower;
+    const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+    const double reach_px = (upper.used.back().trend_px - measured.pivot.point_px).norm();
+    std::vector<LocatedEdgePoint> course =
+        MirroredAtTurned(line, lower, TowardsItself(line, lower) * 0.5 * kOffPx / reach_px);
+    course.resize(static_cast<std::size_t>(kSeen * static_cast<double>(course.size())));
+    cv::Mat picture = BareSheet();
+    DrawStep(course, &picture);
+    measured.photo = Measured::PhotoOf(picture);
+    const auto lost = std::lround(found_from * static_cast<double>(upper.used.size()));
+    upper.used.erase(upper.used.begin(), upper.used.begin() + lost);
+    return FindMirroredTrace(measured.View(), upper, lower, line, kDifferencePx).has_value();
+  };
+  EXPECT_TRUE(takes(0));
+  EXPECT_FALSE(takes(kSeen));
+}
+
 TEST(FindMirroredTrace, NeedsNoneNearTheCrotch) { EXPECT_TRUE(TakesLineBeside(9, 0.5)); }
 
 }  // namespace

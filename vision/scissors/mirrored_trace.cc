@@ -59,6 +59,14 @@ double OutsideBy(const LocatedBlade& blade, const Vector2d& place) {
   return (place - nearest->point_px).dot(nearest->normal);
 }
 
+// Whether a place lies abreast of what was found of an edge, not before or beyond it: there its
+// line may be seen again.
+bool IsAbreast(const LocatedBlade& blade, const Vector2d& place) {
+  const Vector2d &first = blade.used.front().point_px, &last = blade.used.back().point_px;
+  const Vector2d along = last - first;
+  return (place - first).dot(along) >= 0 && (place - last).dot(along) <= 0;
+}
+
 // The taps that count, [first, end).
 struct Taps {
   int first = 0, end = kTaps;
@@ -188,6 +196,7 @@ std::vector<SeenPart> PartsSeen(const BladeView& view,
   for (int index = 0; index < kParts; ++index) {
     const Part part = PartOf(trace.size(), index);
     const Vector2d middle = MiddleOf(trace, part);
+    if (!IsAbreast(inner, middle)) continue;
     const double inwards = OutsideBy(inner, middle) - kClearPx;
     const double outwards = OutsideBy(other, middle) - kClearPx;
     if (std::min(inwards, outwards) < kLeastBesidePx) continue;
