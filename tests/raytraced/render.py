@@ -238,22 +238,26 @@ def truth(shape, pose, camera, rim, markers, size, tags):
         "edge_upper": edge_truth(shape, pose, camera, 1), "edge_lower": edge_truth(shape, pose, camera, -1)}
 
 
-def pose_in_picture(random, shape):
-    """How many mm a pixel shows and where the scissors lie: blades and pivot within the picture, handles often not."""
-    size = random.choice([(1600, 1200), (1600, 1200), (2000, 1500)])
-    mm_per_px = shape.length / (random.uniform(0.33, 0.58) * size[1])
-    heading = random.uniform(0, 2 * math.pi)
-    middle = np.array([random.uniform(-0.04, 0.04), random.uniform(-0.04, 0.04)]) * np.array(size) * mm_per_px
-    ahead = random.uniform(-0.1, 0.3) * shape.length
-    return size, mm_per_px, Pose(heading, middle - ahead * np.array([math.cos(heading), math.sin(heading)]))
+def view_of(random, shape):
+    """A camera, the scissors' pose and the mm to a pixel: blades and pivot within the picture, handles often not."""
+    while True:
+        size = random.choice([(1600, 1200), (1600, 1200), (2000, 1500)])
+        mm_per_px = shape.length / (random.uniform(0.33, 0.58) * size[1])
+        heading, ahead = random.uniform(0, 2 * math.pi), random.uniform(-0.1, 0.3) * shape.length
+        middle = random.uniform(-0.04, 0.04) * size[0] * mm_per_px
+        pose = Pose(heading, middle - ahead * np.array([math.cos(heading), math.sin(heading)]))
+        camera = Camera(random, mm_per_px, size)
+        outlines = [shape.placed(shape.outline(sign)[0], sign) for sign in (1, -1)]
+        blades = camera.project(pose.world(np.vstack([o[o[:, 0] > -shape.joint] for o in outlines]), shape.edge_height))
+        margin = 0.02 * size[1]
+        if (blades > margin).all() and (blades < np.array(size) - margin).all(): return camera, pose, mm_per_px
 
 
 def render_scene(seed, number, folder, samples):
     random = randoms.Random(seed * 1000003 + number)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     shape = Scissors.drawn(random)
-    size, mm_per_px, pose = pose_in_picture(random, shape)
-    camera = Camera(random, mm_per_px, size)
+    camera, pose, mm_per_px = view_of(random, shape)
     kind, lit, drape = random.choice(surroundings.GROUNDS), random.choice(surroundings.LIGHTS), random.choice(sorted(surroundings.DRAPES))
     if kind == "light_table": lit = "overcast"
     surroundings.light(random, lit)
@@ -263,7 +267,7 @@ def render_scene(seed, number, folder, samples):
     size_mm, markers = add_markers(random, camera, mm_per_px, pose.world(shape.silhouette(), 0)[:, :2]) if random.random() < 0.6 and kind != "light_table" else (0, [])
     camera.place()
     stem = os.path.join(folder, f"{number:03d}")
-    develop(random, stem + ".jpg", render_linear(size, samples, stem + ".exr"))
+    develop(random, stem + ".jpg", render_linear(camera.size, samples, stem + ".exr"))
     with open(stem + ".truth.json", "w") as file:
         json.dump(truth(shape, pose, camera, rim, markers, size_mm, [kind, lit]), file)
 
