@@ -116,8 +116,9 @@ TEST(IsTooFlat, WhereTheViewIsKnownAndTheHeadIsNotUnmistakable) {
   EXPECT_FALSE(is_too_flat(UnknownView(), kBeyondDoubt, 0.8)) << "a slant flattens it";
 }
 
-// A head of unusual size, where the blades alone put the pivot so many standard deviations off.
-bool IsSure(bool slotted, double sigmas_off) {
+// Whether a head is trusted for which the blades alone put the pivot so many standard deviations
+// off.
+bool IsSure(bool (*is_sure)(const Screw&, const HeadSearch&), bool slotted, double sigmas_off) {
   constexpr double kSigmaPx = 10;
   const Screw screw = HeadThere(0.5 * (kFaintHead + kUnmistakable), slotted);
   const ScaleResult scale = UnknownView();
@@ -127,7 +128,7 @@ bool IsSure(bool slotted, double sigmas_off) {
                             kSigmaPx * kSigmaPx * Eigen::Matrix2d::Identity()};
   const EdgePair edges = UnlikeEdges();
   const HeadSearch known{cv::Mat(), scale, scene, edges, by_geometry, std::nullopt};
-  return IsSureOfUnusualSize(screw, known);
+  return is_sure(screw, known);
 }
 
 // Whether blades of which one was taken for too far aside mirror each other about a head that is
@@ -154,13 +155,21 @@ TEST(MirrorNear, ThatAHeadMayLieAsideThatHardlyShowsExcusesNoEdgesThatAreUnlike)
 }
 
 TEST(IsSureOfUnusualSize, TakesItWhereTheBladesPutThePivot) {
-  EXPECT_TRUE(IsSure(false, 0.5));
-  EXPECT_FALSE(IsSure(false, 2)) << "a joint's own outline is round, too";
+  EXPECT_TRUE(IsSure(IsSureOfUnusualSize, false, 0.5));
+  EXPECT_FALSE(IsSure(IsSureOfUnusualSize, false, 2)) << "a joint's own outline is round, too";
 }
 
 TEST(IsSureOfUnusualSize, ASlotSpeaksForOneThatLiesFurtherOff) {
-  EXPECT_TRUE(IsSure(true, 2));
-  EXPECT_FALSE(IsSure(true, 7));
+  EXPECT_TRUE(IsSure(IsSureOfUnusualSize, true, 2));
+  EXPECT_FALSE(IsSure(IsSureOfUnusualSize, true, 7));
+}
+
+// About it the edges are no mirror images: one of them may be wrong, as on blades too bright to
+// see.
+TEST(IsSureHalfLit, ASlotSpeaksForOneNearWhereTheBladesPutThePivot) {
+  EXPECT_TRUE(IsSure(IsSureHalfLit, true, 1.5));
+  EXPECT_FALSE(IsSure(IsSureHalfLit, true, 2.5));
+  EXPECT_FALSE(IsSure(IsSureHalfLit, false, 1.5)) << "glints are arcs, too";
 }
 
 }  // namespace

@@ -238,14 +238,14 @@ std::optional<Screw> ClearestIn(const HeadSearch& known,
   return clearest;
 }
 
-// A half-lit head about which the edges mirror each other: nearly all of two thirds of its rim.
+// A half-lit head that is sure: nearly all of two thirds of its rim.
 std::optional<Screw> LookForHalfLit(const HeadSearch& known) {
   constexpr double kSigmas = 2;
   constexpr double kClear = 10;  // elsewhere about the joint one of 700 scenes reaches it
   ScrewSearch search = SearchHalfLit(known, kSigmas);
   search.least_evidence = kClear;
   const auto head = FindHere(known, search);
-  return head && MirrorNear(*head, known) ? head : std::nullopt;
+  return head && IsSureHalfLit(*head, known) ? head : std::nullopt;
 }
 
 // In an unknown view of a scene that is in doubt so is where the blades turn.

@@ -137,4 +137,11 @@ bool IsSureMagnified(const Screw& screw, const HeadSearch& known) {
          MayMirrorAbout(screw, known);
 }
 
+bool IsSureHalfLit(const Screw& screw, const HeadSearch& known) {
+  constexpr double kSigmas = 2;
+  return MirrorNear(screw, known) ||
+         (!known.scale.sheet && IsSlotted(screw) && LiesWhereBladesTurn(screw, known, kSigmas) &&
+          MayMirrorAbout(screw, known));
+}
+
 }  // namespace bladecurve
