@@ -33,7 +33,8 @@ class Camera:
         self.size = size
         distance = random.uniform(350, 700)
         self.focal_px = distance / mm_per_px
-        tilt, azimuth, roll = math.radians(random.choice([0, random.uniform(0, 4), random.uniform(4, 11)])), random.uniform(0, 2 * math.pi), random.uniform(0, 2 * math.pi)
+        tilt = math.radians(random.choice([0, random.uniform(0, 4), random.uniform(4, 11)]))
+        azimuth, roll = random.uniform(0, 2 * math.pi), random.uniform(0, 2 * math.pi)
         back = np.array([math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), math.cos(tilt)])
         right = np.cross([-math.sin(roll), math.cos(roll), 0], back)
         right /= np.linalg.norm(right)
@@ -264,7 +265,9 @@ def render_scene(seed, number, folder, samples):
     rim = add_scissors(random, shape, pose)
     bpy.ops.mesh.primitive_plane_add(size=4000, rotation=(0, 0, random.uniform(0, math.pi)))
     bpy.context.object.data.materials.append(surroundings.ground(random, kind, drape))
-    size_mm, markers = add_markers(random, camera, mm_per_px, pose.world(shape.silhouette(), 0)[:, :2]) if random.random() < 0.6 and kind != "light_table" else (0, [])
+    size_mm, markers = 0, []
+    if random.random() < 0.6 and kind != "light_table":
+        size_mm, markers = add_markers(random, camera, mm_per_px, pose.world(shape.silhouette(), 0)[:, :2])
     camera.place()
     stem = os.path.join(folder, f"{number:03d}")
     develop(random, stem + ".jpg", render_linear(camera.size, samples, stem + ".exr"))

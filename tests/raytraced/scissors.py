@@ -83,30 +83,35 @@ class Scissors:
     def outline(self, sign):
         """Points round one member, counter-clockwise in its frame, and which of them lie on the cutting edge."""
         edge = self.edge(sign, 121)
-        slope = edge[-1] - edge[-2]
-        along = np.arctan2(slope[1], slope[0])
-        back_start = np.array([self.heel * 0.5, self.width * 0.5])
-        normal = np.array([-np.sin(along), np.cos(along)])
-        centre = edge[-1] + self.tip_radius * normal
-        from_tip = np.arctan2(*(back_start - centre)[::-1])
-        turn = np.linspace(along - np.pi / 2, from_tip - np.pi / 2, 17)[1:]
-        tip = centre + self.tip_radius * np.column_stack([np.cos(turn), np.sin(turn)])
+        back_end = np.array([self.heel * 0.5, self.width * 0.5])
+        tip = self.tip(edge, back_end)
         t = np.linspace(0, 1, 60)[1:, None]
-        back = tip[-1] + t * (back_start - tip[-1]) + 4 * t * (1 - t) * np.array([0, 0.06 * self.width + sign * self.curve])
-        half = self.shank / 2
-        drift = lambda u: -half - 0.6 - (self.ring - half) * smooth((-u - self.joint) / (self.shank_length - self.joint))
-        far = np.linspace(-self.joint * 1.5, 0.95 * self.ring - self.shank_length, 24)
-        behind = [[-0.25 * self.joint, 0.5 * self.width], [-self.joint * 0.9, 0.36 * self.width]]
-        upper_side = np.column_stack([far, [drift(u) + half for u in far]])
-        lower_side = np.column_stack([far, [drift(u) - half for u in far]])[::-1]
-        front = [[-self.joint * 0.8, min(-0.5 * self.width, lower_side[-1, 1])], [-0.2 * self.joint, -0.52 * self.width],
-                 [self.heel * 0.5, min(-0.5 * self.width, edge[0, 1])]]
-        end = [[far[-1] - half, drift(far[-1])]]
-        rest = np.vstack([back[-1:], behind, upper_side, end, lower_side, front, edge[:1]])
-        points = np.vstack([edge, tip, back[:-1], rounded(rest)[:-1]])
+        swell = np.array([0, 0.06 * self.width + sign * self.curve])
+        back = tip[-1] + t * (back_end - tip[-1]) + 4 * t * (1 - t) * swell
+        behind = np.vstack([back[-1:], self.joint_and_shank(edge[0, 1]), edge[:1]])
+        points = np.vstack([edge, tip, back[:-1], rounded(behind)[:-1]])
         sharp = np.zeros(len(points), bool)
         sharp[:len(edge)] = True
         return points, sharp
+
+    def tip(self, edge, back_end):
+        """The arc that leaves the edge tangentially at its distal end and goes over into the back."""
+        slope = edge[-1] - edge[-2]
+        along = np.arctan2(slope[1], slope[0])
+        centre = edge[-1] + self.tip_radius * np.array([-np.sin(along), np.cos(along)])
+        to_back = back_end - centre
+        turn = np.linspace(along, np.arctan2(to_back[1], to_back[0]), 17)[1:] - np.pi / 2
+        return centre + self.tip_radius * np.column_stack([np.cos(turn), np.sin(turn)])
+
+    def joint_and_shank(self, heel_v):
+        """From the blade's back round the joint, along the shank, about its end and back to the heel, which lies at `heel_v`."""
+        half = self.shank / 2
+        u = np.linspace(-self.joint * 1.5, 0.95 * self.ring - self.shank_length, 24)
+        v = -half - 0.6 - (self.ring - half) * smooth((-u - self.joint) / (self.shank_length - self.joint))
+        back = [[-0.25 * self.joint, 0.5 * self.width], [-self.joint * 0.9, 0.36 * self.width]]
+        front = [[-self.joint * 0.8, min(-0.5 * self.width, v[0] - half)], [-0.2 * self.joint, -0.52 * self.width],
+                 [self.heel * 0.5, min(-0.5 * self.width, heel_v)]]
+        return np.vstack([back, np.column_stack([u, v + half]), [[u[-1] - half, v[-1]]], np.column_stack([u, v - half])[::-1], front])
 
     def solid(self, sign, on_top):
         """Vertices and faces of one member, in the frame of the scissors: the cutting edge lies in the plane where both meet."""
@@ -128,7 +133,8 @@ class Scissors:
         """Points round members and rings, in the frame of the scissors."""
         turn = np.linspace(0, 2 * np.pi, 24)
         circle = self.ring * np.column_stack([np.cos(turn), np.sin(turn)])
-        return np.vstack([part for sign in (1, -1) for part in (self.placed(self.outline(sign)[0][::4], sign), self.ring_centre(sign) + circle)])
+        members = [self.placed(self.outline(sign)[0][::4], sign) for sign in (1, -1)]
+        return np.vstack(members + [self.ring_centre(sign) + circle for sign in (1, -1)])
 
     def ring_centre(self, sign):
         return self.placed(np.array([[-self.shank_length, -self.ring - 0.6]]), sign)[0]

@@ -73,7 +73,8 @@ def grey(value):
 def metal(random, finish):
     """Brushed along the blade, but for black coatings."""
     rough = {"polished": 0.16, "satin": random.uniform(0.22, 0.4), "black": 0.45}[finish]
-    nodes = Nodes(finish).set(Base_Color=(*grey(0.045 if finish == "black" else random.uniform(0.5, 0.62)), 1), Metallic=1.0, Roughness=rough)
+    tone = 0.045 if finish == "black" else random.uniform(0.5, 0.62)
+    nodes = Nodes(finish).set(Base_Color=(*grey(tone), 1), Metallic=1.0, Roughness=rough)
     along = random.uniform(0.02, 0.1)
     return nodes.bump(nodes.noise((along, 1, 1), random.uniform(2, 5)), 0.01 if finish == "polished" else 0.03).material
 
