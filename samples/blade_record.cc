@@ -8,20 +8,13 @@
 #include "model/blade_file.h"
 #include "samples/fit_record.h"
 #include "samples/fitted_photo.h"
+#include "samples/json_arrays.h"
 #include "vision/scale/scale.h"
 
 namespace bladecurve {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json PointRecord(const Eigen::Vector2d& point) { return Json::array({point.x(), point.y()}); }
-
-Json PointsRecord(const std::vector<Eigen::Vector2d>& points) {
-  Json record = Json::array();
-  for (const Eigen::Vector2d& point : points) record.push_back(PointRecord(point));
-  return record;
-}
 
 // As the model writes it: what the format's own keys look like is said in one place.
 Json PlainFile(const BladeCurve& curve) { return Json::parse(BladeFileText({"", curve})); }
@@ -34,7 +27,7 @@ Json AlternativesRecord(const BladeFit& fit) {
                       {"largest_difference_mm", fit.largest_difference_mm},
                       {"largest_difference_torque", fit.largest_difference_torque},
                       {"parameters", other.parameter_names},
-                      {"covariance", MatrixRecord(other.covariance)},
+                      {"covariance", MatrixJson(other.covariance)},
                       {"bic", other.bic},
                       {"aicc", other.aicc}});
   }
@@ -73,10 +66,10 @@ Json PhotoRecord(const Analysis& analysis, std::size_t index, bool times) {
                  {"sha256", photo.sha256},
                  {"width", photo.width},
                  {"height", photo.height},
-                 {"pivot_px", PointRecord(fitted.pivot_px)},
+                 {"pivot_px", PointJson(fitted.pivot_px)},
                  {"pivot_sigma_px", fitted.pivot_sigma_px},
                  {"pivot_source", photo.pivot_source},
-                 {"axis_px", PointRecord(fitted.axis_px)},
+                 {"axis_px", PointJson(fitted.axis_px)},
                  {"theta_rad", fitted.theta_rad},
                  {"theta_sigma_rad", fitted.theta_sigma_rad},
                  {"theta_source", photo.theta_source},
@@ -84,12 +77,12 @@ Json PhotoRecord(const Analysis& analysis, std::size_t index, bool times) {
                  {"mm_per_px_sigma", photo.mm_per_px_sigma},
                  {"scale_source", photo.scale_source},
                  {"rms_mm", analysis.fit.poses[index].rms_mm},
-                 {"upper_edge_px", PointsRecord(photo.upper_edge_px)},
-                 {"upper_edge_mm", PointsRecord(fitted.upper_edge_mm)},
+                 {"upper_edge_px", PointsJson(photo.upper_edge_px)},
+                 {"upper_edge_mm", PointsJson(fitted.upper_edge_mm)},
                  {"upper_edge_sigma_px", photo.upper_edge_sigma_px},
-                 {"lower_edge_px", PointsRecord(photo.lower_edge_px)},
-                 {"upper_end_px", PointRecord(photo.upper_end_px)},
-                 {"lower_end_px", PointRecord(photo.lower_end_px)},
+                 {"lower_edge_px", PointsJson(photo.lower_edge_px)},
+                 {"upper_end_px", PointJson(photo.upper_end_px)},
+                 {"lower_end_px", PointJson(photo.lower_end_px)},
                  {"warnings", photo.warnings},
                  {"plan", PlanRecord(plan, times)}};
   if (photo.theta_source == "given") {
@@ -144,19 +137,19 @@ std::string Status(const Analysis& analysis) {
 
 std::string BladeRecordText(const Analysis& analysis, const RecordOptions& options) {
   const FamilyFit& fit = analysis.fit.recommended;
-  Json record = {{"format", "bladecurve/1"},
-                 {"name", options.name},
-                 {"status", Status(analysis)},
-                 {"warnings", Warnings(analysis)},
-                 {"notes", analysis.fit.notes},
-                 {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
-                 {"curve", CurveRecord(fit.curve)},
-                 {"alternatives", AlternativesRecord(analysis.fit)},
-                 {"domain", PlainFile(fit.curve).at("domain")},
-                 {"covariance",
-                  {{"parameters", fit.parameter_names}, {"matrix", MatrixRecord(fit.covariance)}}},
-                 {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
-                 {"photos", PhotosRecord(analysis, options.times)}};
+  Json record = {
+      {"format", "bladecurve/1"},
+      {"name", options.name},
+      {"status", Status(analysis)},
+      {"warnings", Warnings(analysis)},
+      {"notes", analysis.fit.notes},
+      {"software", {{"name", "bladecurve"}, {"version", BLADECURVE_VERSION}}},
+      {"curve", CurveRecord(fit.curve)},
+      {"alternatives", AlternativesRecord(analysis.fit)},
+      {"domain", PlainFile(fit.curve).at("domain")},
+      {"covariance", {{"parameters", fit.parameter_names}, {"matrix", MatrixJson(fit.covariance)}}},
+      {"fit", FitRecord(analysis.fit, MeanMmPerPx(analysis.photos))},
+      {"photos", PhotosRecord(analysis, options.times)}};
   if (analysis.photos.front().scale_source == kPixelsSource) record["units"] = "px";
   return LineAKey(record);
 }

@@ -162,14 +162,4 @@ Json FitRecord(const BladeFit& fit, double mm_per_px) {
           {"rejected", Records(fit.rejected)}};
 }
 
-Json MatrixRecord(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    Json row = Json::array();
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 }  // namespace bladecurve

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
 
 #include "curvefit/fit.h"
@@ -12,8 +11,5 @@ namespace bladecurve {
 // The "fit" object of a .blade.json: what the solver did and whether to believe it. mm_per_px turns
 // the misfit into pixels.
 [[nodiscard]] nlohmann::ordered_json FitRecord(const BladeFit& fit, double mm_per_px);
-
-// Row by row.
-[[nodiscard]] nlohmann::ordered_json MatrixRecord(const Eigen::MatrixXd& matrix);
 
 }  // namespace bladecurve

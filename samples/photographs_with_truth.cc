@@ -9,27 +9,18 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "model/degrees.h"
+#include "samples/json_arrays.h"
+#include "samples/scene_truth.h"
 
 namespace bladecurve {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
-constexpr const char* kSchema = "scissors-heldout/1";
-constexpr const char* kTruthEnding = ".truth.json";
-
-Eigen::Vector2d PointOf(const Json& point) {
-  return {point.at(0).get<double>(), point.at(1).get<double>()};
-}
-
-std::vector<Eigen::Vector2d> PointsOf(const Json& list) {
-  std::vector<Eigen::Vector2d> points;
-  for (const Json& point : list) points.push_back(PointOf(point));
-  return points;
-}
+constexpr std::string_view kTruthEnding = ".truth.json";
 
 // The cubic that ends in 0 where the blade does, by least squares.
 EdgeShape ShapeThrough(const std::vector<Eigen::Vector2d>& blade_mm) {
@@ -48,7 +39,7 @@ EdgeShape ShapeThrough(const std::vector<Eigen::Vector2d>& blade_mm) {
   return shape;
 }
 
-EdgeTruth EdgeOf(const Json& json) {
+EdgeTruth EdgeOf(const nlohmann::json& json) {
   constexpr std::size_t kFewest = 4;  // a cubic's
   EdgeTruth edge;
   edge.blade_mm = PointsOf(json.at("blade_mm"));
@@ -64,7 +55,7 @@ EdgeTruth EdgeOf(const Json& json) {
   return edge;
 }
 
-CameraTruth CameraOf(const Json& json) {
+CameraTruth CameraOf(const nlohmann::json& json) {
   CameraTruth camera;
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) camera.k(r, c) = json.at("K").at(r).at(c).get<double>();
@@ -73,19 +64,19 @@ CameraTruth CameraOf(const Json& json) {
   return camera;
 }
 
-std::vector<MarkerTruth> MarkersOf(const Json& json) {
+std::vector<MarkerTruth> MarkersOf(const nlohmann::json& json) {
   std::vector<MarkerTruth> markers;
   if (json.is_null()) return markers;
-  for (const Json& marker : json.at("markers"))
+  for (const nlohmann::json& marker : json.at("markers"))
     markers.push_back({.id = marker.at("id").get<int>(),
                        .size_mm = marker.at("size_mm").get<double>(),
                        .corners_px = {}});
   return markers;
 }
 
-PhotographWithTruth FromJson(const Json& json) {
-  if (json.value("schema", "") != kSchema)
-    throw std::invalid_argument(std::string("its schema is not ") + kSchema);
+PhotographWithTruth FromJson(const nlohmann::json& json) {
+  if (json.value("schema", "") != kTruthSchema)
+    throw std::invalid_argument(std::string("its schema is not ") + kTruthSchema);
   PhotographWithTruth photograph;
   SceneTruth& truth = photograph.truth;
   photograph.to_refuse = json.value("expect", "ok") == "refuse";
@@ -93,10 +84,10 @@ PhotographWithTruth FromJson(const Json& json) {
   truth.height = json.at("image").at("height").get<int>();
   truth.theta_rad = json.at("theta_deg").get<double>() * kRadPerDeg;
   truth.pivot_px = PointOf(json.at("pivot").at("px"));
-  const Json screw = json.at("pivot").value("screw_top_center_px", Json());
+  const nlohmann::json screw = json.at("pivot").value("screw_top_center_px", nlohmann::json());
   truth.screw_px = screw.is_null() ? truth.pivot_px : PointOf(screw);
   truth.axis_px = PointOf(json.at("symmetry_axis").at("dir_px"));
-  const Json& scale = json.at("scale");
+  const nlohmann::json& scale = json.at("scale");
   truth.mm_per_px = scale.at("mm_per_px_edge_plane").at("at_pivot_along_axis").get<double>();
   truth.upper = EdgeOf(json.at("edge_upper"));
   truth.lower = EdgeOf(json.at("edge_lower"));
@@ -108,8 +99,7 @@ PhotographWithTruth FromJson(const Json& json) {
 }
 
 std::optional<fs::path> PictureBeside(const fs::path& truth) {
-  const std::string stem =
-      truth.string().substr(0, truth.string().size() - std::string(kTruthEnding).size());
+  const std::string stem = truth.string().substr(0, truth.string().size() - kTruthEnding.size());
   for (const char* ending : {".jpg", ".png"}) {
     if (fs::exists(stem + ending)) return stem + ending;
   }
@@ -120,7 +110,7 @@ PhotographWithTruth Read(const fs::path& path) try {
   const std::optional<fs::path> photo = PictureBeside(path);
   if (!photo) throw std::invalid_argument("neither a .jpg nor a .png of that name lies beside it");
   std::ifstream stream(path);
-  PhotographWithTruth photograph = FromJson(Json::parse(stream));
+  PhotographWithTruth photograph = FromJson(nlohmann::json::parse(stream));
   photograph.photo = *photo;
   return photograph;
 } catch (const std::exception& cause) {
@@ -136,7 +126,7 @@ std::vector<PhotographWithTruth> PhotographsWithTruth(const fs::path& folder) {
   }
   if (truths.empty())
     throw std::invalid_argument("--photographs: " + folder.string() + " holds no NAME" +
-                                kTruthEnding);
+                                std::string(kTruthEnding));
   std::sort(truths.begin(), truths.end());
   std::vector<PhotographWithTruth> photographs;
   for (const fs::path& truth : truths) photographs.push_back(Read(truth));

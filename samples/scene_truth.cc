@@ -5,24 +5,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "samples/json_arrays.h"
+
 namespace bladecurve {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json PointJson(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
-
-Json PointsJson(const std::vector<Eigen::Vector2d>& points) {
-  Json list = Json::array();
-  for (const Eigen::Vector2d& p : points) list.push_back(PointJson(p));
-  return list;
-}
-
-Json MatrixJson(const Eigen::Matrix3d& m) {
-  Json rows = Json::array();
-  for (int r = 0; r < 3; ++r) rows.push_back({m(r, 0), m(r, 1), m(r, 2)});
-  return rows;
-}
 
 Json EdgeJson(const EdgeTruth& edge, double height_mm) {
   return {{"z_world_mm", height_mm},
@@ -61,7 +49,7 @@ Json CameraJson(const CameraTruth& camera) {
 }  // namespace
 
 Json SceneTruthJson(const SceneTruth& truth, const std::string& file, const std::string& expect) {
-  return {{"schema", "scissors-heldout/1"},
+  return {{"schema", kTruthSchema},
           {"expect", expect},
           {"image", {{"file", file}, {"width", truth.width}, {"height", truth.height}}},
           {"units", "mm, degrees"},

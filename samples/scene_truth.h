@@ -9,7 +9,9 @@
 
 namespace bladecurve {
 
-// The truth of a rendered photograph as NAME.truth.json holds it: schema scissors-heldout/1, mm and
+inline constexpr const char* kTruthSchema = "scissors-heldout/1";
+
+// The truth of a rendered photograph as NAME.truth.json holds it: of that schema, mm and
 // degrees, pixels with the centre of the top-left one at (0, 0). `expect`: "ok" or "refuse".
 [[nodiscard]] nlohmann::ordered_json SceneTruthJson(const SceneTruth& truth,
                                                     const std::string& file,

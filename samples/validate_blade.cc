@@ -11,6 +11,7 @@
 
 #include "model/blade_file.h"
 #include "samples/fitted_photo.h"
+#include "samples/json_arrays.h"
 #include "vision/photo/photo.h"
 #include "vision/render/render_compare.h"
 
@@ -19,16 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-Eigen::Vector2d PointOf(const Json& pair) {
-  return {pair.at(0).get<double>(), pair.at(1).get<double>()};
-}
-
-std::vector<Eigen::Vector2d> PointsOf(const Json& list) {
-  std::vector<Eigen::Vector2d> points;
-  for (const Json& pair : list) points.push_back(PointOf(pair));
-  return points;
-}
 
 Json PhotosOf(const fs::path& blade) {
   std::ifstream file(blade);

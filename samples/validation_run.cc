@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "model/degrees.h"
 #include "samples/analysis.h"
+#include "samples/json_arrays.h"
 #include "samples/validation_errors.h"
 #include "vision/photo/whole_file.h"
 #include "vision/render/render.h"
@@ -20,13 +22,10 @@ namespace fs = std::filesystem;
 constexpr int kJpegQuality = 95;
 
 void WriteCalibration(const fs::path& path, const SceneTruth& truth, const CameraTruth& camera) {
-  const Eigen::Matrix3d& k = camera.k;
-  const nlohmann::json calibration = {
-      {"width", truth.width},
-      {"height", truth.height},
-      {"K",
-       {{k(0, 0), k(0, 1), k(0, 2)}, {k(1, 0), k(1, 1), k(1, 2)}, {k(2, 0), k(2, 1), k(2, 2)}}},
-      {"dist", {camera.k1, 0, 0, 0}}};
+  const nlohmann::ordered_json calibration = {{"width", truth.width},
+                                              {"height", truth.height},
+                                              {"K", MatrixJson(camera.k)},
+                                              {"dist", {camera.k1, 0, 0, 0}}};
   WriteFileWhole(path, calibration.dump());
 }
 
@@ -57,29 +56,18 @@ class SceneFiles {
 };
 
 // What the program is told of a picture's scale and camera.
-AnalysisSettings SettingsFor(const ValidationScene& scene, const SceneFiles& files) {
-  const SceneSpec& spec = scene.spec;
+AnalysisSettings SettingsFor(const SceneTruth& truth,
+                             double height_error_mm,
+                             const std::optional<fs::path>& camera) {
   AnalysisSettings settings;
-  if (spec.markers.empty()) {
-    settings.measure.scale.mm_per_px = TruthOf(spec).mm_per_px;
-    return settings;
-  }
-  settings.measure.scale.marker_mm = spec.markers.front().size_mm;
-  settings.measure.scale.plane_height_mm = spec.edge_height_mm + scene.height_error_mm;
-  if (scene.camera_known) settings.measure.scale.camera = files.camera();
-  return settings;
-}
-
-AnalysisSettings SettingsFor(const PhotographWithTruth& photograph, const fs::path& camera) {
-  const SceneTruth& truth = photograph.truth;
-  AnalysisSettings settings;
+  ScaleOptions& scale = settings.measure.scale;
   if (truth.markers.empty()) {
-    settings.measure.scale.mm_per_px = truth.mm_per_px;
+    scale.mm_per_px = truth.mm_per_px;
     return settings;
   }
-  settings.measure.scale.marker_mm = truth.markers.front().size_mm;
-  settings.measure.scale.plane_height_mm = truth.edge_height_mm;
-  if (photograph.camera_known) settings.measure.scale.camera = camera;
+  scale.marker_mm = truth.markers.front().size_mm;
+  scale.plane_height_mm = truth.edge_height_mm + height_error_mm;
+  scale.camera = camera;
   return settings;
 }
 
@@ -129,19 +117,26 @@ ValidationRow ValidateScene(const ValidationScene& scene, const fs::path& folder
   const RenderedPhoto photo = RenderScene(scene.spec);
   const std::string number = std::to_string(scene.number);
   const SceneFiles files(photo, scene, folder / ("scene-" + number));
-  const std::string expected = scene.refuse ? std::string(ReasonCode(*scene.refuse)) : "ok";
+  const auto camera = scene.camera_known ? std::optional(files.camera()) : std::nullopt;
   return Compared(
-      RowFor(number, expected, photo.truth), files.photo(), SettingsFor(scene, files), photo.truth);
+      RowFor(number, scene.refuse ? std::string(ReasonCode(*scene.refuse)) : "ok", photo.truth),
+      files.photo(),
+      SettingsFor(photo.truth, scene.height_error_mm, camera),
+      photo.truth);
 }
 
 ValidationRow ValidatePhotograph(const PhotographWithTruth& photograph, const fs::path& folder) {
+  const SceneTruth& truth = photograph.truth;
   const std::string name = photograph.photo.stem().string();
-  const fs::path camera = folder / (name + ".camera.json");
-  WriteCalibration(camera, photograph.truth, photograph.truth.camera);
-  return Compared(RowFor(name, photograph.to_refuse ? kAnyReason : "ok", photograph.truth),
+  std::optional<fs::path> camera;
+  if (photograph.camera_known) {
+    camera = folder / (name + ".camera.json");
+    WriteCalibration(*camera, truth, truth.camera);
+  }
+  return Compared(RowFor(name, photograph.to_refuse ? kAnyReason : "ok", truth),
                   photograph.photo,
-                  SettingsFor(photograph, camera),
-                  photograph.truth);
+                  SettingsFor(truth, 0, camera),
+                  truth);
 }
 
 }  // namespace bladecurve

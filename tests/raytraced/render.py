@@ -30,7 +30,7 @@ class Camera:
     """A pinhole that looks at the world's origin. Pixels: the centre of the top-left one is (0, 0)."""
 
     def __init__(self, random, mm_per_px, size):
-        self.size = size
+        self.size, self.mm_per_px = size, mm_per_px  # mm_per_px: on the ground at the origin
         distance = random.uniform(350, 700)
         self.focal_px = distance / mm_per_px
         tilt = math.radians(random.choice([0, random.uniform(0, 4), random.uniform(4, 11)]))
@@ -165,13 +165,13 @@ def add_marker(number, size, centre, angle):
     return np.column_stack([centre + square @ turn.T, np.full(4, 0.05)])
 
 
-def add_markers(random, camera, mm_per_px, silhouette):
+def add_markers(random, camera, silhouette):
     """One to four on the free ground."""
     size, count, placed = random.choice([25, 50]), random.choice([1, 2, 4, 4]), []
-    half = np.array(camera.size) * mm_per_px / 2
+    half = max(camera.size) * camera.mm_per_px / 2
     for _ in range(400):
         if len(placed) == count: break
-        centre = np.array([random.uniform(-half.max(), half.max()), random.uniform(-half.max(), half.max())])
+        centre = np.array([random.uniform(-half, half), random.uniform(-half, half)])
         angle = random.uniform(0, 2 * math.pi)
         reach = 0.95 * size
         px = camera.project([[*(centre + reach * np.array(d)), 0] for d in ((1, 0), (-1, 0), (0, 1), (0, -1))])
@@ -240,7 +240,7 @@ def truth(shape, pose, camera, rim, markers, size, tags):
 
 
 def view_of(random, shape):
-    """A camera, the scissors' pose and the mm to a pixel: blades and pivot within the picture, handles often not."""
+    """A camera and the scissors' pose: blades and pivot within the picture, handles often not."""
     while True:
         size = random.choice([(1600, 1200), (1600, 1200), (2000, 1500)])
         mm_per_px = shape.length / (random.uniform(0.33, 0.58) * size[1])
@@ -251,14 +251,14 @@ def view_of(random, shape):
         outlines = [shape.placed(shape.outline(sign)[0], sign) for sign in (1, -1)]
         blades = camera.project(pose.world(np.vstack([o[o[:, 0] > -shape.joint] for o in outlines]), shape.edge_height))
         margin = 0.02 * size[1]
-        if (blades > margin).all() and (blades < np.array(size) - margin).all(): return camera, pose, mm_per_px
+        if (blades > margin).all() and (blades < np.array(size) - margin).all(): return camera, pose
 
 
 def render_scene(seed, number, folder, samples):
     random = randoms.Random(seed * 1000003 + number)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     shape = Scissors.drawn(random)
-    camera, pose, mm_per_px = view_of(random, shape)
+    camera, pose = view_of(random, shape)
     kind, lit, drape = random.choice(surroundings.GROUNDS), random.choice(surroundings.LIGHTS), random.choice(sorted(surroundings.DRAPES))
     if kind == "light_table": lit = "overcast"
     surroundings.light(random, lit)
@@ -267,7 +267,7 @@ def render_scene(seed, number, folder, samples):
     bpy.context.object.data.materials.append(surroundings.ground(random, kind, drape))
     size_mm, markers = 0, []
     if random.random() < 0.6 and kind != "light_table":
-        size_mm, markers = add_markers(random, camera, mm_per_px, pose.world(shape.silhouette(), 0)[:, :2])
+        size_mm, markers = add_markers(random, camera, pose.world(shape.silhouette(), 0)[:, :2])
     camera.place()
     stem = os.path.join(folder, f"{number:03d}")
     develop(random, stem + ".jpg", render_linear(camera.size, samples, stem + ".exr"))

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "model/blade_file.h"
+#include "samples/json_arrays.h"
 #include "tests/degree.h"
-#include "tests/samples/json_point.h"
 #include "tests/samples/picture_files.h"
 #include "tests/samples/program_run.h"
 #include "vision/photo/photo.h"

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/samples/json_point.h"
+#include "samples/json_arrays.h"
 #include "tests/samples/program_run.h"
 
 // Every photograph in samples/photos against the truth that its renderer wrote beside it.

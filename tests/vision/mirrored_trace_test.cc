@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "measured_blades.h"
 
@@ -137,64 +138,62 @@ TEST(FindMirroredTrace, TakesNoLineOnTheOtherBlade) {
   EXPECT_FALSE(finds(0.5 * (opening_rad + kBeyondRad)));
 }
 
-// Whether, beside an upper edge that is where it belongs, a line is taken that lies so far outwards
-// of its end, less nearer to the pivot, and is drawn along so much of the blade from the tip on, in
-// a picture brightened by so much.
-bool TakesLineBeside(double off_px, double share, double brighter = 0) {
+// A line beside an upper edge that is where it belongs: so far outwards of its end, less nearer to
+// the pivot, over those shares of the blade from the crotch on, in a picture brightened by so much.
+// Of the edge, that share was not found.
+struct LineBeside {
+  double off_px = 0;
+  double from = 0, to = 1;
+  double brighter = 0;
+  double edge_lost_to = 0;
+};
+
+void KeepShares(double from, double to, std::vector<LocatedEdgePoint>* points) {
+  const auto place = [count = static_cast<double>(points->size())](double share) {
+    return std::lround(share * count);
+  };
+  points->erase(points->begin() + place(to), points->end());
+  points->erase(points->begin(), points->begin() + place(from));
+}
+
+// Whether it is taken.
+bool Takes(const LineBeside& drawn) {
   constexpr double kDifferencePx = 6;
   Measured measured{SceneWithMarkers()};
+  LocatedBlade& upper = measured.blades.upper;
   const LocatedBlade& lower = measured.blades.lower;
   const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
-  const Vector2d upper_end = measured.blades.upper.used.back().trend_px;
-  const double reach_px = (upper_end - measured.pivot.point_px).norm();
-  const double turn_rad = TowardsItself(line, lower) * 0.5 * off_px / reach_px;
+  const double reach_px = (upper.used.back().trend_px - measured.pivot.point_px).norm();
+  const double turn_rad = TowardsItself(line, lower) * 0.5 * drawn.off_px / reach_px;
   std::vector<LocatedEdgePoint> course = MirroredAtTurned(line, lower, turn_rad);
-  const auto points = static_cast<double>(course.size());
-  course.erase(course.begin(), course.begin() + std::lround((1 - share) * points));
+  KeepShares(drawn.from, drawn.to, &course);
   cv::Mat picture = BareSheet();
   DrawStep(course, &picture);
-  picture += cv::Scalar::all(brighter);
+  picture += cv::Scalar::all(drawn.brighter);
   measured.photo = Measured::PhotoOf(picture);
-  return FindMirroredTrace(measured.View(), measured.blades.upper, lower, line, kDifferencePx)
-      .has_value();
+  KeepShares(drawn.edge_lost_to, 1, &upper.used);
+  return FindMirroredTrace(measured.View(), upper, lower, line, kDifferencePx).has_value();
 }
 
 TEST(FindMirroredTrace, TakesNoLineThatLeavesTheEdgesEnd) {
-  EXPECT_TRUE(TakesLineBeside(9, 1));
-  EXPECT_FALSE(TakesLineBeside(14, 1));
+  EXPECT_TRUE(Takes({.off_px = 9}));
+  EXPECT_FALSE(Takes({.off_px = 14}));
 }
 
 // White as the picture can store, light may do anything.
 TEST(FindMirroredTrace, TakesNoLineInOverexposedLight) {
   constexpr double kWhitens = 100;
-  EXPECT_FALSE(TakesLineBeside(9, 1, kWhitens));
+  EXPECT_FALSE(Takes({.off_px = 9, .brighter = kWhitens}));
 }
 
 // Where nothing was found of the upper edge, its own line may be what is seen.
 TEST(FindMirroredTrace, TakesNoLineWhereTheInnerEdgeWasNotFound) {
-  constexpr double kOffPx = 9, kDifferencePx = 6;
-  constexpr double kSeen = 0.75;  // of the line, from the crotch on
-  const auto takes = [&](double found_from) {
-    Measured measured{SceneWithMarkers()};
-    LocatedBlade& upper = measured.blades.upper;
-    const LocatedBlade& lower = measured.blades.lower;
-    const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
-    const double reach_px = (upper.used.back().trend_px - measured.pivot.point_px).norm();
-    std::vector<LocatedEdgePoint> course =
-        MirroredAtTurned(line, lower, TowardsItself(line, lower) * 0.5 * kOffPx / reach_px);
-    course.resize(static_cast<std::size_t>(kSeen * static_cast<double>(course.size())));
-    cv::Mat picture = BareSheet();
-    DrawStep(course, &picture);
-    measured.photo = Measured::PhotoOf(picture);
-    const auto lost = std::lround(found_from * static_cast<double>(upper.used.size()));
-    upper.used.erase(upper.used.begin(), upper.used.begin() + lost);
-    return FindMirroredTrace(measured.View(), upper, lower, line, kDifferencePx).has_value();
-  };
-  EXPECT_TRUE(takes(0));
-  EXPECT_FALSE(takes(kSeen));
+  constexpr double kTo = 0.75;
+  EXPECT_TRUE(Takes({.off_px = 9, .to = kTo}));
+  EXPECT_FALSE(Takes({.off_px = 9, .to = kTo, .edge_lost_to = kTo}));
 }
 
-TEST(FindMirroredTrace, NeedsNoneNearTheCrotch) { EXPECT_TRUE(TakesLineBeside(9, 0.5)); }
+TEST(FindMirroredTrace, NeedsNoneNearTheCrotch) { EXPECT_TRUE(Takes({.off_px = 9, .from = 0.5})); }
 
 }  // namespace
 }  // namespace bladecurve

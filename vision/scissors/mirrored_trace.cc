@@ -59,8 +59,8 @@ double OutsideBy(const LocatedBlade& blade, const Vector2d& place) {
   return (place - nearest->point_px).dot(nearest->normal);
 }
 
-// Whether a place lies abreast of what was found of an edge, not before or beyond it: there its
-// line may be seen again.
+// Whether a place lies abreast of what was found of an edge: before and beyond that its own line
+// may be seen again.
 bool IsAbreast(const LocatedBlade& blade, const Vector2d& place) {
   const Vector2d &first = blade.used.front().point_px, &last = blade.used.back().point_px;
   const Vector2d along = last - first;
