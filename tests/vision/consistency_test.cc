@@ -276,6 +276,27 @@ TEST(RefuseUnconfirmedScene, AsksMoreOfASecondLook) {
   EXPECT_NO_THROW(RefuseUnconfirmedScene(again, {}, faint));
 }
 
+TEST(RefuseUnconfirmedScene, AsksMoreOfBladesBentToOneSide) {
+  Scene plain, doubtful;
+  plain.quality = 0.95;
+  doubtful.quality = 0.5;
+  Pivot bent = PivotSeen(0);
+  bent.bent = true;
+  Screw& head = bent.screw.emplace();
+  head.evidence = kUnmistakable;
+  head.third_support = 1;
+  Pivot partly = bent, faint = bent, given = bent;
+  partly.screw->third_support = 0.1;
+  faint.screw->evidence = kFaintHead - 1;
+  given.screw.reset();
+  given.source = "hint";
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, {}, bent));
+  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, {}, partly), Refused);
+  EXPECT_THROW(RefuseUnconfirmedScene(doubtful, {}, faint), Refused);
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(doubtful, {}, given));
+  EXPECT_NO_THROW(RefuseUnconfirmedScene(plain, {}, faint));
+}
+
 TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
   const Blades found = BladesWithRivals(0, 0);
   const Pivot pivot = PivotSeen(0);
@@ -290,6 +311,11 @@ TEST(DoubtLaterLook, TakesAHundredthOfTheBladesIntoAccount) {
   ASSERT_GT(length_px, 0);
   EXPECT_NEAR(again.upper.edge.common_sigma_px, 0.01 * length_px, 1e-3 * length_px);
   EXPECT_EQ(again.lower.edge.common_sigma_px, again.upper.edge.common_sigma_px);
+  Pivot bent = pivot;
+  bent.bent = true;  // no edge confirms the other
+  Blades of_bent = found;
+  DoubtLaterLook(scene, bent, &of_bent);
+  EXPECT_NEAR(of_bent.upper.edge.common_sigma_px, 0.03 * length_px, 1e-3 * length_px);
 }
 
 TEST(RefuseUnlikeEdges, SpeaksUpWhereTheTiltIsKnownAndTheScrewSeen) {

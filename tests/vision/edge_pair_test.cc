@@ -716,6 +716,25 @@ TEST(LocateBlades, FollowNoEdgeOnAlongTheOther) {
   PaintedBlades::ExpectOnEdges(blades.Locate(PaintedBlades::kHeel + 5, kBlurPx));
 }
 
+// The upper edge is what is measured; the lower one tells less, and may be lost.
+TEST(LocateBlades, TraceALowerEdgeThatIsNotSeen) {
+  constexpr int kSmearedPx = 60;
+  const SceneSpec spec;
+  cv::Mat picture = RenderScene(spec).bgr;
+  const Seen seen(spec, picture);
+  const auto smear = [&](const std::vector<Eigen::Vector2d>& along) {
+    for (const Eigen::Vector2d& p : along)
+      cv::circle(picture, {cvRound(p.x()), cvRound(p.y())}, kSmearedPx, cv::Scalar::all(128), -1);
+    return Measured::PhotoOf(picture);
+  };
+  EXPECT_FALSE(seen.Locate().lower.traced);
+  const Photo smeared = smear(CuttingEdgeOf(seen.scene, false).path_px);
+  const BladeEdges edges = LocateBlades(BladeView(smeared, seen.scale, seen.scene));
+  EXPECT_TRUE(edges.lower.traced);
+  EXPECT_EQ(edges.lower.ambiguity, 1);
+  EXPECT_FALSE(edges.upper.traced);
+}
+
 // A soft shadow that begins at the edge looks like blur on both sides where the edge is faint.
 TEST(LocateBlades, TakesNoShadowForBlurThatPrintAndTheOtherBladeDoNotShow) {
   constexpr double kSofter = 1.1;   // times the print's blur

@@ -834,6 +834,9 @@ TEST(RelocateUnlikeEdges, LeavesBladesBentToOneSide) {
     EXPECT_EQ(PointsOf(measured.blades.upper), upper) << curve_mm;
     EXPECT_EQ(PointsOf(measured.blades.lower), lower) << curve_mm;
     EXPECT_EQ(measured.blades.upper.edge.common_sigma_px, sigma_px) << curve_mm;
+    measured.blades.lower.edge.traced = true;  // and says nothing of a bend
+    CompareEdges(measured.scale, measured.scene, edges(), &measured.pivot);
+    EXPECT_FALSE(measured.pivot.bent) << curve_mm;
   }
 }
 

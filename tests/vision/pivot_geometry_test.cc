@@ -123,6 +123,14 @@ TEST(AreBentToOneSide, SeesParabolasFromTheHeels) {
   }
 }
 
+// The outline of a blade with a soft shadow is bent as well.
+TEST(AreBentToOneSide, SeesNoneInAnOutline) {
+  EdgePair bent = Bent(Edges(30 * kDegree, 0.08), 0.03, 0.12);
+  ASSERT_TRUE(AreBentToOneSide(bent, kPivot));
+  bent.traced = true;
+  EXPECT_FALSE(AreBentToOneSide(bent, kPivot));
+}
+
 // However roughly they were located, if they are bent by far more.
 TEST(AreBentToOneSide, SeesLargeBowsOfRoughEdges) {
   constexpr double kRough = 0.004, kWaves = 9;  // of the length

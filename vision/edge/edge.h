@@ -44,6 +44,7 @@ struct LocatedEdge {
       std::numeric_limits<double>::quiet_NaN();  // Gaussian sigma of the edge, pixel box apart
   // What it would be if nothing bounded it; NaN in a mixture of colours, whose edges are softer.
   double unbound_blur_px = std::numeric_limits<double>::quiet_NaN();
+  bool traced = false;        // never located: as the scene's outline has it
   double overexposed = 0;     // share of its length beside which blade or background is plain white
   double correlation_px = 0;  // neighbours closer than this are not independent
   double common_sigma_px = 0;  // offset all points share: tone curve, ambiguity of bevel and shadow

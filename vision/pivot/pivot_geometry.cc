@@ -179,6 +179,7 @@ bool AreBentToOneSide(const EdgePair& edges, const Vector2d& pivot_px) {
   constexpr double kSmoothOfBend = 1.0 / 7;       // or of the scatter about a straight line
   constexpr double kBehind = -0.05, kHeel = 0.3;  // of the length, from the pivot
   constexpr std::size_t kFewestAbreast = 60;      // points; fewer show no bend
+  if (edges.traced) return false;
   const EdgeGap gap = GapAbout(edges, pivot_px);
   if (gap.along.size() < kFewestAbreast) return false;
   const FittedGap straight = FitAllOf(gap, 2), bent = FitAllOf(gap, 3);

@@ -10,9 +10,11 @@
 
 namespace bladecurve {
 
-// The two cutting edges, from the crotch to the distal end.
+// The two cutting edges, from the crotch to the distal end. Traced: one of them was never located,
+// and is as the scene's outline has it.
 struct EdgePair {
   std::vector<Eigen::Vector2d> left_px, right_px;
+  bool traced = false;
 };
 
 // The same as seen from straight above, if markers say how the camera stands: only so do the edges
@@ -49,7 +51,7 @@ struct EdgeMirror {
 
 // Whether both blades are bent to one side, as those of "curved" scissors may be: what their edges
 // differ by, about the line between their ends, is a parabola from the ends to about the heels. One
-// that is something else's border parts from its place otherwise.
+// that is something else's border parts from its place otherwise. Outlines show no bend.
 [[nodiscard]] bool AreBentToOneSide(const EdgePair& edges, const Eigen::Vector2d& pivot_px);
 
 // How unlike the two edges are in shape: root mean square of what their distances from the line

@@ -171,7 +171,9 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
   constexpr double kAlike = 0.015;  // of the length, in shape; where both are seen, up to 0.0125
   constexpr double kPlain = 0.8;    // quality; lines on a mat that cross look like worse ones
   const bool faint = pivot.screw && IsFaint(*pivot.screw);
-  const bool seen = pivot.source != "geometry" && !(scene.second_look && faint);
+  const bool contested = pivot.bent ? faint || (pivot.screw && IsPartlySeen(*pivot.screw))
+                                    : faint && scene.second_look;
+  const bool seen = pivot.source != "geometry" && !contested;
   const bool at_a_slant = !scale.sheet || pivot.bent;
   const bool pass_alike =
       at_a_slant ? std::abs(pivot.asymmetry) < kMost : !AreUnlike(pivot.asymmetry);
@@ -185,14 +187,15 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
         "picture, does not tell for certain that these are scissors; show the rings as "
         "well, light the screw, or say where it is: --pivot X,Y");
   }
+  const char* const why = pivot.bent ? "blades that are bent to one side do not confirm each other"
+                          : seen     ? "these do not mirror each other about the pivot"
+                                     : "no screw is seen that would confirm where the blades are";
   throw Refused(Reason::kLowContrast,
                 "edges: shadows or a ground as bright as the blades leave " +
                     std::string(scene.outlined ? "nothing but lines to tell them by"
                                                : "it in doubt what is blade") +
-                    ", and " +
-                    (seen ? "these do not mirror each other about the pivot"
-                          : "no screw is seen that would confirm where the blades are") +
-                    "; use another ground or softer light, or " + HowToPoint(pivot));
+                    ", and " + why + "; use another ground or softer light, or " +
+                    HowToPoint(pivot));
 }
 
 }  // namespace bladecurve

@@ -51,7 +51,8 @@ void RefusePivotOffJoint(const Scene& scene, const Pivot& pivot);
 
 // Throws Refused{kLowContrast} for a doubtful scene if no pivot that is seen, or given, confirms
 // it: the edges mirror each other about it as far as the view is known, in shape as well, and a
-// second look needs more than a faint head. Where none is seen the scene must be plainer: else
+// second look needs more than a faint head. Blades bent to one side, which nothing mirrors, always
+// need a head that is seen well. Where none is seen the scene must be plainer: else
 // Refused{kAmbiguousPivot}.
 void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const Pivot& pivot);
 

@@ -168,9 +168,10 @@ void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades) {
 
 void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades) {
   constexpr double kOfLength = 0.01;  // over annotated photographs
+  constexpr double kOfBent = 0.03;    // over rendered ones: no edge confirms the other
   if (!scene.second_look) return;
   for (LocatedBlade* blade : {&blades->upper, &blades->lower})
-    AddSigma(&blade->edge, kOfLength * BladeLengthPx(pivot, *blades));
+    AddSigma(&blade->edge, (pivot.bent ? kOfBent : kOfLength) * BladeLengthPx(pivot, *blades));
 }
 
 void DoubtUnlikeEnds(const Pivot& pivot, const ScaleResult& scale, Blades* blades) {

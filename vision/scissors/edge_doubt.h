@@ -77,7 +77,7 @@ void DoubtSofterEdge(Blades* blades);
 void DoubtUnlikePrint(const ScaleResult& scale, Blades* blades);
 
 // What was found at a second look only may follow other lines than the blades' borders: its edges
-// are less certain by a hundredth of the blades' length.
+// are less certain by a hundredth of the blades' length, by three where both are bent to one side.
 void DoubtLaterLook(const Scene& scene, const Pivot& pivot, Blades* blades);
 
 // The distal ends of edges that pass although they are no mirror images: one of the edges is

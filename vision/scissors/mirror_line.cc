@@ -15,7 +15,9 @@ namespace bladecurve {
 using Eigen::Vector2d;
 
 EdgePair PairOf(const LocatedBlade& a, const LocatedBlade& b) {
-  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b)} : EdgePair{PointsOf(b), PointsOf(a)};
+  const bool traced = a.edge.traced || b.edge.traced;
+  return a.on_left ? EdgePair{PointsOf(a), PointsOf(b), traced}
+                   : EdgePair{PointsOf(b), PointsOf(a), traced};
 }
 
 Vector2d MirrorLine::At(double along, double aside) const {

@@ -58,6 +58,7 @@ LocatedEdge AsTraced(const Scene& scene, bool left) {
   edge.correlation_px = 10 * scene.path_sigma_px;
   edge.common_sigma_px = 2 * scene.path_sigma_px;
   edge.ambiguity = 1;
+  edge.traced = true;
   return edge;
 }
 
