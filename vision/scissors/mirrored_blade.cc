@@ -87,10 +87,9 @@ std::optional<RelocatedBlade> LookNearMirrored(const MirroredBladeSearch& search
                                                double search_px) {
   auto found = IfItFacesGap(
       search, [&] { return search.view.InGreyOrColours(GuessWithin(search, search_px)); });
-  const bool shadows = found && LiesInGround(search.view,
-                                             found->blade.edge,
-                                             search.other.edge,
-                                             found->blade.on_left);
+  const bool shadows =
+      found &&
+      LiesInGround(search.view, found->blade.edge, search.other.edge, found->blade.on_left);
   return shadows ? std::nullopt : std::move(found);
 }
 
