@@ -368,6 +368,39 @@ TEST(FindPivot, TakesAnArcForAHalfLitHeadRightWhereTheBladesTurn) {
             "geometry");
 }
 
+// Of which no more than a line shows, a pixel wide.
+TEST(FindPivot, SeesTheFineRimOfAFlushHead) {
+  constexpr double kClosePx = 1;
+  constexpr int kRadiusPx = 28, kFiner = 16, kBits = 4, kDarker = 4;
+  SceneSpec spec = SceneWithMarkers();
+  spec.width = 3000;
+  spec.height = 2250;
+  spec.camera.mm_per_px = 0.1;
+  spec.scissors.brushing = 0;
+  spec.scissors.screw_visible = false;
+  const Measured measured{spec};
+  const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  const auto source = [&](const cv::Mat& grey) {
+    const Pivot pivot = FindPivot(grey, measured.scale, {measured.scene, edges, std::nullopt});
+    if (pivot.source == "screw") {
+      EXPECT_LT((pivot.screw->center_px - measured.truth.pivot_px).norm(), kClosePx);
+    }
+    return pivot.source;
+  };
+  const cv::Mat bare = measured.photo.grey();
+  EXPECT_EQ(source(bare), "geometry");
+  cv::Mat line = cv::Mat::zeros(bare.size(), CV_8UC1);
+  const Vector2d at = kFiner * measured.truth.pivot_px;
+  cv::circle(line,
+             {static_cast<int>(at.x()), static_cast<int>(at.y())},
+             kFiner * kRadiusPx,
+             kDarker,
+             1,
+             cv::LINE_AA,
+             kBits);
+  EXPECT_EQ(source(bare - line), "screw");
+}
+
 // A photograph a few hundred pixels wide, its screw's slot some way round.
 SceneSpec SmallPhotograph(double mm_per_px, std::uint64_t seed) {
   SceneSpec spec = SceneWithMarkers();

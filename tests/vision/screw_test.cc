@@ -463,6 +463,52 @@ TEST(FindScrew, SeesFarMoreSmallSlottedHeadsMagnified) {
   EXPECT_GE(magnified, 2 * plainly);
 }
 
+ScrewSearch FineSearchAround(const Vector2d& guess, double radius) {
+  ScrewSearch search = SearchAround(guess, radius);
+  search.fine_rims = true;
+  return search;
+}
+
+// Flush heads in dark shanks on white paper: a groove hardly wider than a pixel, no step, no slot.
+TEST(FindScrew, SeesFarMoreLargeFlushHeadsByTheirFineRims) {
+  constexpr std::uint32_t kHeads = 24, kFirst = 601;
+  constexpr double kRadiusPx = 36, kClosePx = 1;
+  std::uint32_t plainly = 0, fine = 0;
+  for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
+    HeadSpec head = RandomHead(kRadiusPx, seed);
+    head.center_px += Vector2d::Constant(50);  // room for the search on all sides
+    head.side_px += 100;
+    head.semi_minor_px = kRadiusPx;
+    head.plate = 0.02;
+    head.groove = -0.008;
+    head.groove_px = 0.4;
+    head.blur_px = 0.5;
+    head.noise = 1.5;
+    cv::Mat grey = RenderHead(head);
+    LayOnPaper(head, 1.5 * kRadiusPx, head.angle_rad, &grey);
+    const auto is_found = [&](const ScrewSearch& search) {
+      const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
+      return screw && screw->evidence > kBeyondDoubt &&
+             (screw->center_px - head.center_px).norm() < kClosePx;
+    };
+    if (is_found(SearchAround(head.center_px, kRadiusPx))) ++plainly;
+    if (is_found(FineSearchAround(head.center_px, kRadiusPx))) ++fine;
+  }
+  EXPECT_GE(fine, kHeads / 2);
+  EXPECT_GE(fine, 2 * plainly);
+}
+
+TEST(FindScrew, SeesNoFineRimWhereThereIsNone) {
+  constexpr std::uint32_t kDraws = 12;
+  for (const double radius : {20.0, 40.0}) {
+    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
+    const ScrewSearch search = FineSearchAround({0, 0}, radius);
+    EXPECT_EQ(CountFound(noise, search), 0) << "noise, radius " << radius;
+    EXPECT_EQ(CountFound(brushed, search), 0) << "brushed plate, radius " << radius;
+    EXPECT_EQ(CountFound(bars, search), 0) << "crossing bars, radius " << radius;
+  }
+}
+
 TEST(FindScrew, SeesNoScrewMagnifiedWhereThereIsNone) {
   constexpr std::uint32_t kDraws = 40;
   for (const double radius : {5.0, 8.0}) {

@@ -238,6 +238,18 @@ std::optional<Screw> ClearestIn(const HeadSearch& known,
   return clearest;
 }
 
+// A flush head of which no more than a fine line shows.
+std::optional<Screw> LookForFineRim(const HeadSearch& known) {
+  constexpr double kLeastPx = 1.5 * kJudgedRadiusPx;  // smaller ones are seen as they are
+  std::vector<ScrewSearch> searches = PiecesAlongOverlap(known);
+  for (ScrewSearch& search : searches) {
+    search.min_semi_axis_px = std::max(search.min_semi_axis_px, kLeastPx);
+    if (search.max_semi_axis_px < search.min_semi_axis_px) return std::nullopt;
+    search.fine_rims = true;
+  }
+  return ClearestIn(known, searches, IsSureAtJoint);
+}
+
 // A half-lit head that is sure: nearly all of two thirds of its rim.
 std::optional<Screw> LookForHalfLit(const HeadSearch& known) {
   constexpr double kSigmas = 2;
@@ -276,7 +288,8 @@ std::optional<Screw> LookWhereBladesTurn(const HeadSearch& known) {
 }
 
 // Where no head was seen that can be trusted: one further forward; one along the overlap; a
-// wider or a smaller one; one of which nothing but the slot shows; a half-lit one.
+// wider or a smaller one; one with a fine rim; one of which nothing but the slot shows; a half-lit
+// one.
 std::optional<Screw> LookFurther(const HeadSearch& known) {
   const ScaleResult& scale = known.scale;
   const Scene& scene = known.scene;
@@ -285,6 +298,7 @@ std::optional<Screw> LookFurther(const HeadSearch& known) {
   if (auto head = ClearestIn(known, PiecesAlongOverlap(known), IsSureAtJoint)) return head;
   const std::vector unusual{SearchWideHead(scale, scene), SearchSmallHead(scale, scene)};
   if (auto head = ClearestIn(known, unusual, IsSureOfUnusualSize)) return head;
+  if (auto head = LookForFineRim(known)) return head;
   if (auto slotted = LookForSlot(known)) return slotted;
   return LookForHalfLit(known);
 }

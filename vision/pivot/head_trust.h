@@ -55,8 +55,8 @@ struct HeadSearch;  // vision/pivot/head_search.h: what is known beforehand
 // all sides show and that lies not far from there, or one with a slot from end to end.
 [[nodiscard]] bool IsSureMagnified(const Screw& screw, const HeadSearch& known);
 
-// The same of a half-lit one: if the edges mirror each other about it; where a slanted view may part
-// them, also one with a slot from end to end not far from where the blades put the pivot.
+// The same of a half-lit one: if the edges mirror each other about it; where a slanted view may
+// part them, also one with a slot from end to end not far from where the blades put the pivot.
 [[nodiscard]] bool IsSureHalfLit(const Screw& screw, const HeadSearch& known);
 
 }  // namespace bladecurve

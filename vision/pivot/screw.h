@@ -77,6 +77,9 @@ struct ScrewSearch {
   // Heads of less than kJudgedRadiusPx are judged up to twice as large: more of a rim shows then
   // beside a slot that is as wide as the blur, and more that is none looks like one.
   bool magnified = false;
+  // Rims are looked for twice as large as usual: the line of a flush head, a pixel or two wide, is
+  // lost where large heads are looked at as small as others. Takes four times as long.
+  bool fine_rims = false;
 };
 
 // The screw's rim found and fitted to sub-pixel; std::nullopt where none is visible with

@@ -10,8 +10,8 @@
 namespace bladecurve {
 namespace {
 
-// Of neighbouring circles: on the rim hardly more than the blur of the field, 1 px.
-constexpr double kRadiusRatio = 1.07;
+// Of neighbouring circles, of the least radius: on the rim hardly more than the blur of the field.
+constexpr double kApartPx = 0.7;
 constexpr float kLeastScore = 0.4F;   // below: what any textured ground reaches by chance
 constexpr std::size_t kPeaks = 100;   // circles to be asked for straight edges
 constexpr std::size_t kClimbed = 15;  // circles to be bent into ellipses
@@ -27,9 +27,12 @@ struct Layer {
   cv::Mat score;
 };
 
-std::vector<Layer> ScoreAllCircles(const RimField& field, const cv::Rect& centers) {
+std::vector<Layer> ScoreAllCircles(const RimField& field,
+                                   const cv::Rect& centers,
+                                   double least_radius) {
   std::vector<double> radii;
-  for (double r = kOctaveRadius; r < 2.05 * kOctaveRadius; r *= kRadiusRatio) radii.push_back(r);
+  for (double r = least_radius; r < 2.05 * least_radius; r *= 1 + kApartPx / least_radius)
+    radii.push_back(r);
   const std::vector<cv::Mat> scores = field.ScoreCircles(centers, radii);
   std::vector<Layer> layers;
   for (std::size_t i = 0; i < radii.size(); ++i) layers.push_back({radii[i], scores[i]});
@@ -86,14 +89,14 @@ RimEllipse RimFrom(const RimParameters& p) {
   return rim;
 }
 
-bool Admissible(const RimParameters& p) {
-  return std::hypot(p[3], p[4]) <= kMostElongation && p[2] > std::log(0.95 * kOctaveRadius) &&
-         p[2] < std::log(2.1 * kOctaveRadius);
+bool Admissible(const RimParameters& p, double least_radius) {
+  return std::hypot(p[3], p[4]) <= kMostElongation && p[2] > std::log(0.95 * least_radius) &&
+         p[2] < std::log(2.1 * least_radius);
 }
 
 // Climbs to the ellipse of highest score, one parameter at a time with steps of 1, 1/2 and 1/4 px
 // on the rim: the score has kinks and plateaus on which a gradient would stall.
-RimCandidate Climb(const RimField& field, const RimCandidate& start) {
+RimCandidate Climb(const RimField& field, const RimCandidate& start, double least_radius) {
   const double radius = start.rim.MeanRadius();
   RimParameters best{start.rim.center.x(), start.rim.center.y(), std::log(radius), 0, 0};
   double best_score = field.Score(start.rim);
@@ -105,7 +108,7 @@ RimCandidate Climb(const RimField& field, const RimCandidate& start) {
         for (const double sign : {-1.0, 1.0}) {
           RimParameters trial = best;
           trial[k] += sign * step / (k < 2 ? 1 : radius);
-          if (!Admissible(trial)) continue;
+          if (!Admissible(trial, least_radius)) continue;
           const double score = field.Score(RimFrom(trial));
           if (score <= best_score) continue;
           best_score = score;
@@ -140,7 +143,7 @@ std::vector<RimCandidate> FindRimCandidates(const RimField& field, const OctaveS
                          2 * reach + 1,
                          2 * reach + 1);
   std::vector<RimCandidate> candidates =
-      CirclePeaks(ScoreAllCircles(field, centers), centers, search);
+      CirclePeaks(ScoreAllCircles(field, centers, search.least_radius), centers, search);
   KeepBest(candidates, kPeaks);
   for (RimCandidate& candidate : candidates) {
     candidate.score = field.ScoreWithoutTangents(candidate.rim);
@@ -148,7 +151,7 @@ std::vector<RimCandidate> FindRimCandidates(const RimField& field, const OctaveS
   KeepBest(candidates, kClimbed);
   std::vector<RimCandidate> climbed;
   for (const RimCandidate& candidate : candidates) {
-    climbed.push_back(Climb(field, candidate));
+    climbed.push_back(Climb(field, candidate, search.least_radius));
     climbed.back().score = field.ScoreWithoutTangents(climbed.back().rim);
     // It may have left a rim for the straight edges of a shank.
     if (climbed.back().score < candidate.score) climbed.push_back(candidate);

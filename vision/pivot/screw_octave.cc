@@ -23,6 +23,11 @@ bool Admissible(const RimEllipse& rim, const ScrewSearch& search) {
          (rim.center - search.guess_px).norm() <= 1.1 * search.radius_px + 1;
 }
 
+// The least of an octave, in the window where rims are looked for.
+double LeastRadius(const ScrewSearch& search) {
+  return search.fine_rims ? 2 * kOctaveRadius : kOctaveRadius;
+}
+
 // Where the grain of plate and ground is measured: at least three radii about.
 double Surroundings(const ScrewSearch& search, double min_radius_px) {
   return std::max(search.radius_px, 3 * min_radius_px);
@@ -53,7 +58,7 @@ Octave::Octave(const cv::Mat& grey, const ScrewSearch& search, double min_radius
       coarse_(CutWindow(grey,
                         search.guess_px,
                         Surroundings(search, min_radius_px) + kMargin * min_radius_px,
-                        min_radius_px / kOctaveRadius)),
+                        min_radius_px / LeastRadius(search))),
       fine_(CutWindow(grey,
                       search.guess_px,
                       search.radius_px + kMargin * min_radius_px,
@@ -61,12 +66,13 @@ Octave::Octave(const cv::Mat& grey, const ScrewSearch& search, double min_radius
       field_(coarse_.grey,
              (search.guess_px - coarse_.origin) / coarse_.scale,
              Surroundings(search, min_radius_px) / coarse_.scale,
-             std::numbers::sqrt2 * kOctaveRadius),
+             std::numbers::sqrt2 * LeastRadius(search)),
       smooth_(Smooth(fine_.grey)) {}
 
 std::vector<RimCandidate> Octave::Candidates() const {
   const OctaveSearch search{(search_.guess_px - coarse_.origin) / coarse_.scale,
-                            search_.radius_px / coarse_.scale};
+                            search_.radius_px / coarse_.scale,
+                            LeastRadius(search_)};
   std::vector<RimCandidate> candidates = FindRimCandidates(field_, search);
   for (RimCandidate& candidate : candidates)
     candidate.rim = candidate.rim.OutOf(coarse_.origin, coarse_.scale);
