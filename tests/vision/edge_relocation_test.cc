@@ -45,6 +45,31 @@ TEST(RelocateUnlikeEdges, FindsTheMisplacedEdgeOfEitherBlade) {
   }
 }
 
+// The trace of the scene followed a shadow's border, or a bevel's: turned, and no mirror image.
+TEST(RelocateUnlikeEdges, FindsAnEdgeThatWasNeverLocatedHoweverFarOffItsTrace) {
+  constexpr double kOffPx = 25, kClosePx = 0.3;
+  for (const bool known_view : {true, false}) {
+    for (const bool traced : {true, false}) {
+      Measured measured{SceneWithMarkers()};
+      LocatedBlade& lower = measured.blades.lower;
+      measured.MakeClear(&measured.blades.upper);
+      measured.Lose(&lower, 0);
+      measured.Shift(&lower, [&](double share) { return -kOffPx * share * share; });
+      lower.edge.traced = traced;
+      if (!known_view) measured.scale.sheet.reset();
+      Relocate(&measured);
+      const double off_px = FarFrom(measured.truth.lower, lower.used);
+      if (traced) {
+        EXPECT_LT(off_px, kClosePx) << known_view;
+        EXPECT_FALSE(lower.edge.traced);
+        EXPECT_GE(lower.edge.ambiguity, known_view ? 0 : 0.6);
+      } else {
+        EXPECT_GT(off_px, 2) << "something else finds it, " << known_view;
+      }
+    }
+  }
+}
+
 // As if another line had been followed from so far along the edge on to so far.
 void Bulge(Measured* measured, LocatedBlade* blade, double from, double to, double outwards_px) {
   measured->Shift(blade, [&](double share) {

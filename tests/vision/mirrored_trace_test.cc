@@ -10,9 +10,12 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "measured_blades.h"
+#include "tests/degree.h"
+#include "vision/scissors/turned_mirror.h"
 
 namespace bladecurve {
 namespace {
@@ -85,16 +88,19 @@ TEST(FindMirroredTrace, FindsNoneOnABareSheet) {
   EXPECT_FALSE(FindIn(SceneWithMarkers(), BareSheet()).any);
 }
 
-// A step in the light along a course, dark on the far side of its normals.
-void DrawStep(const std::vector<LocatedEdgePoint>& course, cv::Mat* picture) {
-  constexpr double kDepthPx = 12, kStepPx = 0.5;
+// A step along a course, darker on the far side of its normals, or of another colour.
+void DrawStep(const std::vector<LocatedEdgePoint>& course,
+              cv::Mat* picture,
+              const cv::Vec3b& bgr = {90, 90, 90},
+              double depth_px = 12) {
+  constexpr double kStepPx = 0.5;
   for (std::size_t i = 1; i < course.size(); ++i) {
     const Vector2d along = course[i].trend_px - course[i - 1].trend_px;
     for (double t = 0; t < 1; t += kStepPx / along.norm()) {
-      for (double depth = 0; depth < kDepthPx; depth += kStepPx) {
+      for (double depth = 0; depth < depth_px; depth += kStepPx) {
         const Vector2d at = course[i - 1].trend_px + t * along - depth * course[i].normal;
         picture->at<cv::Vec3b>(cv::Point(static_cast<int>(std::lround(at.x())),
-                                         static_cast<int>(std::lround(at.y())))) = {90, 90, 90};
+                                         static_cast<int>(std::lround(at.y())))) = bgr;
       }
     }
   }
@@ -194,6 +200,58 @@ TEST(FindMirroredTrace, TakesNoLineWhereTheInnerEdgeWasNotFound) {
 }
 
 TEST(FindMirroredTrace, NeedsNoneNearTheCrotch) { EXPECT_TRUE(Takes({.off_px = 9, .from = 0.5})); }
+
+// What FindTurnedMirror makes of a bare sheet on which the upper edge's mirror image was drawn,
+// turned by some angles, the outermost first: how far from the first one it finds the lower edge.
+struct DrawnTurn {
+  double inwards_rad = 0;
+  cv::Vec3b bgr{90, 90, 90};
+};
+
+std::optional<double> OffFirst(const std::vector<DrawnTurn>& drawn) {
+  constexpr double kDeepPx = 80;
+  Measured measured{SceneWithMarkers()};
+  const LocatedBlade& upper = measured.blades.upper;
+  const MirrorLine line = LineBetween(measured.View(), measured.pivot, measured.blades);
+  cv::Mat picture = BareSheet();
+  const auto course = [&](const DrawnTurn& turn) {
+    return MirroredAtTurned(line, upper, -0.5 * TowardsItself(line, upper) * turn.inwards_rad);
+  };
+  for (const DrawnTurn& turn : drawn) DrawStep(course(turn), &picture, turn.bgr, kDeepPx);
+  measured.photo = Measured::PhotoOf(picture);
+  const auto found = FindTurnedMirror(measured.View(), upper, line);
+  if (!found) return std::nullopt;
+  const Vector2d end = found->Reflected(upper.used.back().trend_px);
+  return (end - course(drawn.front()).back().trend_px).norm();
+}
+
+TEST(FindTurnedMirror, FindsTheOtherEdgesMirrorImageSomeDegreesOff) {
+  constexpr double kClosePx = 1;
+  for (const double inwards_rad : {-4 * kDegree, 0.0, 6 * kDegree}) {
+    const auto off_px = OffFirst({{inwards_rad}});
+    ASSERT_TRUE(off_px) << inwards_rad;
+    EXPECT_LT(*off_px, kClosePx) << inwards_rad;
+  }
+}
+
+// Light may rise at a shadow's border, or where the blade ends and a bevel begins within it.
+TEST(FindTurnedMirror, TakesTheOuterOneOfTwoUnlessItMayBeAShadows) {
+  constexpr double kClosePx = 1;
+  const cv::Vec3b orange{40, 90, 160}, darker{50, 50, 50};
+  EXPECT_FALSE(OffFirst({{-2 * kDegree}, {4 * kDegree, darker}}));
+  const auto off_px = OffFirst({{-2 * kDegree, orange}, {4 * kDegree, darker}});
+  ASSERT_TRUE(off_px);
+  EXPECT_LT(*off_px, kClosePx);
+}
+
+TEST(FindTurnedMirror, FindsNoneOnABareSheet) {
+  const Measured seen{SceneWithMarkers()};
+  Measured bare{SceneWithMarkers()};
+  bare.photo = Measured::PhotoOf(BareSheet());
+  const MirrorLine line = LineBetween(seen.View(), seen.pivot, seen.blades);
+  EXPECT_TRUE(FindTurnedMirror(seen.View(), seen.blades.upper, line));
+  EXPECT_FALSE(FindTurnedMirror(bare.View(), bare.blades.upper, line));
+}
 
 }  // namespace
 }  // namespace bladecurve

@@ -17,6 +17,7 @@
 #include "vision/scissors/ground_colour.h"
 #include "vision/scissors/mirrored_blade.h"
 #include "vision/scissors/shadowed_edge.h"
+#include "vision/scissors/turned_mirror.h"
 
 namespace bladecurve {
 namespace {
@@ -188,6 +189,23 @@ bool RelocateLostOne(const BladeView& view, const Pivot& pivot, Blades* blades) 
   return true;
 }
 
+// An edge that was never located, where the other one, if clear, is mirrored on a line that is seen
+// along all of it: whichever way the outline went, blades turn about the pivot.
+bool RelocateTracedOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
+  constexpr double kSearchPx = 4;
+  LocatedBlade& traced = blades->lower;
+  const LocatedBlade& other = blades->upper;
+  if (!traced.edge.traced || !IsClear(other.edge) || !AssumesMirror(view, pivot)) return false;
+  if (pivot.screw && IsFaint(*pivot.screw)) return false;
+  const auto line = FindTurnedMirror(view, other, LineBetween(view, pivot, *blades));
+  if (!line) return false;
+  const auto found = LookNearMirrored({view, pivot, other, *line}, kSearchPx);
+  if (!found || !AreAlike(found->asymmetry)) return false;
+  Replace(*found, "where the other one, mirrored, is seen along all of it", &traced);
+  MarkAsAssumed(view, pivot, &traced);
+  return true;
+}
+
 // Where a slanted view may part the edges as well: the one that has a rival and is far better seen
 // where the other puts it, if that is not seen where this one puts it. What is seen further in is
 // mostly a line on the blade: only a far higher step counts there, and none far in.
@@ -308,6 +326,7 @@ void RelocateFurtherOut(const BladeView& view, const Pivot& pivot, Blades* blade
 
 void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (pivot.bent) return;
+  if (RelocateTracedOne(view, pivot, blades)) return;
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
     if (!AssumesMirror(view, pivot)) return;
