@@ -439,41 +439,54 @@ ScrewSearch MagnifiedSearchAround(const Vector2d& guess, double radius) {
   return search;
 }
 
-// With dark slots, as of slender scissors in pictures a few hundred pixels wide.
-TEST(FindScrew, SeesFarMoreSmallSlottedHeadsMagnified) {
-  constexpr std::uint32_t kHeads = 40, kFirst = 501;
-  constexpr double kRadiusPx = 5, kClosePx = 0.6, kEvidence = 6;
-  std::uint32_t plainly = 0, magnified = 0;
-  for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
-    HeadSpec head = RandomHead(kRadiusPx, seed);
-    head.groove = -0.07;
-    head.groove_px = 0.5;
-    head.slot = -0.2;
-    head.blur_px = 0.6;
-    const cv::Mat grey = RenderHead(head);
-    const auto is_found = [&](const ScrewSearch& search) {
-      const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
-      return screw && screw->evidence > kEvidence &&
-             (screw->center_px - head.center_px).norm() < kClosePx;
-    };
-    if (is_found(SearchAround(head.center_px, kRadiusPx))) ++plainly;
-    if (is_found(MagnifiedSearchAround(head.center_px, kRadiusPx))) ++magnified;
-  }
-  EXPECT_GE(magnified, kHeads / 2);
-  EXPECT_GE(magnified, 2 * plainly);
-}
-
 ScrewSearch FineSearchAround(const Vector2d& guess, double radius) {
   ScrewSearch search = SearchAround(guess, radius);
   search.fine_rims = true;
   return search;
 }
 
+struct DrawnHead {
+  HeadSpec head;
+  cv::Mat grey;
+};
+
+// How many are seen so close to where they are, with so much evidence.
+std::uint32_t CountSeen(const std::vector<DrawnHead>& drawn,
+                        ScrewSearch (*search_around)(const Vector2d&, double),
+                        double close_px,
+                        double evidence) {
+  return static_cast<std::uint32_t>(
+      std::count_if(drawn.begin(), drawn.end(), [&](const DrawnHead& d) {
+        const ScrewSearch search = search_around(d.head.center_px, d.head.semi_major_px);
+        const std::optional<Screw> screw = FindScrew(d.grey, SrgbToneCurve(), search);
+        return screw && screw->evidence > evidence &&
+               (screw->center_px - d.head.center_px).norm() < close_px;
+      }));
+}
+
+// With dark slots, as of slender scissors in pictures a few hundred pixels wide.
+TEST(FindScrew, SeesFarMoreSmallSlottedHeadsMagnified) {
+  constexpr std::uint32_t kHeads = 40, kFirst = 501;
+  constexpr double kRadiusPx = 5, kClosePx = 0.6, kEvidence = 6;
+  std::vector<DrawnHead> drawn;
+  for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
+    HeadSpec head = RandomHead(kRadiusPx, seed);
+    head.groove = -0.07;
+    head.groove_px = 0.5;
+    head.slot = -0.2;
+    head.blur_px = 0.6;
+    drawn.push_back({head, RenderHead(head)});
+  }
+  const auto magnified = CountSeen(drawn, MagnifiedSearchAround, kClosePx, kEvidence);
+  EXPECT_GE(magnified, kHeads / 2);
+  EXPECT_GE(magnified, 2 * CountSeen(drawn, SearchAround, kClosePx, kEvidence));
+}
+
 // Flush heads in dark shanks on white paper: a groove hardly wider than a pixel, no step, no slot.
 TEST(FindScrew, SeesFarMoreLargeFlushHeadsByTheirFineRims) {
   constexpr std::uint32_t kHeads = 24, kFirst = 601;
   constexpr double kRadiusPx = 36, kClosePx = 1;
-  std::uint32_t plainly = 0, fine = 0;
+  std::vector<DrawnHead> drawn;
   for (std::uint32_t seed = kFirst; seed < kFirst + kHeads; ++seed) {
     HeadSpec head = RandomHead(kRadiusPx, seed);
     head.center_px += Vector2d::Constant(50);  // room for the search on all sides
@@ -484,18 +497,12 @@ TEST(FindScrew, SeesFarMoreLargeFlushHeadsByTheirFineRims) {
     head.groove_px = 0.4;
     head.blur_px = 0.5;
     head.noise = 1.5;
-    cv::Mat grey = RenderHead(head);
-    LayOnPaper(head, 1.5 * kRadiusPx, head.angle_rad, &grey);
-    const auto is_found = [&](const ScrewSearch& search) {
-      const std::optional<Screw> screw = FindScrew(grey, SrgbToneCurve(), search);
-      return screw && screw->evidence > kBeyondDoubt &&
-             (screw->center_px - head.center_px).norm() < kClosePx;
-    };
-    if (is_found(SearchAround(head.center_px, kRadiusPx))) ++plainly;
-    if (is_found(FineSearchAround(head.center_px, kRadiusPx))) ++fine;
+    drawn.push_back({head, RenderHead(head)});
+    LayOnPaper(head, 1.5 * kRadiusPx, head.angle_rad, &drawn.back().grey);
   }
+  const auto fine = CountSeen(drawn, FineSearchAround, kClosePx, kBeyondDoubt);
   EXPECT_GE(fine, kHeads / 2);
-  EXPECT_GE(fine, 2 * plainly);
+  EXPECT_GE(fine, 2 * CountSeen(drawn, SearchAround, kClosePx, kBeyondDoubt));
 }
 
 TEST(FindScrew, SeesNoFineRimWhereThereIsNone) {
