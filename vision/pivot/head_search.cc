@@ -238,16 +238,17 @@ std::optional<Screw> ClearestIn(const HeadSearch& known,
   return clearest;
 }
 
-// A flush head of which no more than a fine line shows.
+// A flush head of which no more than a fine line shows, where geometry puts the pivot.
 std::optional<Screw> LookForFineRim(const HeadSearch& known) {
   constexpr double kLeastPx = 1.5 * kJudgedRadiusPx;  // smaller ones are seen as they are
-  std::vector<ScrewSearch> searches = PiecesAlongOverlap(known);
-  for (ScrewSearch& search : searches) {
-    search.min_semi_axis_px = std::max(search.min_semi_axis_px, kLeastPx);
-    if (search.max_semi_axis_px < search.min_semi_axis_px) return std::nullopt;
-    search.fine_rims = true;
-  }
-  return ClearestIn(known, searches, IsSureAtJoint);
+  constexpr double kNear = 0.35;                      // of the shank's width
+  ScrewSearch search = SearchForHead(
+      known.scale, known.scene, known.by_geometry.point_px, kNear * known.scene.shank_width_px);
+  search.min_semi_axis_px = std::max(search.min_semi_axis_px, kLeastPx);
+  if (search.max_semi_axis_px < search.min_semi_axis_px) return std::nullopt;
+  search.fine_rims = true;
+  const std::optional<Screw> head = FindHere(known, search);
+  return head && IsSureAtJoint(*head, known) ? head : std::nullopt;
 }
 
 // A half-lit head that is sure: nearly all of two thirds of its rim.

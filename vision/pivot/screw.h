@@ -78,7 +78,7 @@ struct ScrewSearch {
   // beside a slot that is as wide as the blur, and more that is none looks like one.
   bool magnified = false;
   // Rims are looked for twice as large as usual: the line of a flush head, a pixel or two wide, is
-  // lost where large heads are looked at as small as others. Takes four times as long.
+  // lost where large heads are looked at as small as others. Takes eight times as long.
   bool fine_rims = false;
 };
 
