@@ -72,7 +72,7 @@ std::vector<std::string> WarningsOf(const Scene& scene,
     if (doubtful) warnings.emplace_back(doubt);
   };
   warn_if(pivot.source == "geometry", "pivot_not_seen");
-  warn_if(pivot.screw && (IsFaint(*pivot.screw) || IsPartlySeen(*pivot.screw)), "pivot_faint");
+  warn_if(pivot.screw && IsHardlySeen(*pivot.screw), "pivot_faint");
   warn_if(pivot.off_screw, "pivot_off_screw");
   warn_if(PassUnlike(pivot, scale) || blades.edges_part, "blades_asymmetric");
   warn_if(pivot.bent, "blades_bent");  // neither edge confirms the other

@@ -722,13 +722,10 @@ TEST(LocateBlades, TraceALowerEdgeThatIsNotSeen) {
   const SceneSpec spec;
   cv::Mat picture = RenderScene(spec).bgr;
   const Seen seen(spec, picture);
-  const auto smear = [&](const std::vector<Eigen::Vector2d>& along) {
-    for (const Eigen::Vector2d& p : along)
-      cv::circle(picture, {cvRound(p.x()), cvRound(p.y())}, kSmearedPx, cv::Scalar::all(128), -1);
-    return Measured::PhotoOf(picture);
-  };
   EXPECT_FALSE(seen.Locate().lower.traced);
-  const Photo smeared = smear(CuttingEdgeOf(seen.scene, false).path_px);
+  for (const Eigen::Vector2d& p : CuttingEdgeOf(seen.scene, false).path_px)
+    cv::circle(picture, {cvRound(p.x()), cvRound(p.y())}, kSmearedPx, cv::Scalar::all(128), -1);
+  const Photo smeared = Measured::PhotoOf(picture);
   const BladeEdges edges = LocateBlades(BladeView(smeared, seen.scale, seen.scene));
   EXPECT_TRUE(edges.lower.traced);
   EXPECT_EQ(edges.lower.ambiguity, 1);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -110,10 +109,7 @@ void DrawStep(const std::vector<LocatedEdgePoint>& course,
 std::vector<LocatedEdgePoint> MirroredAtTurned(const MirrorLine& line,
                                                const LocatedBlade& blade,
                                                double turn_rad) {
-  const MirrorLine turned{line.map, line.pivot, Eigen::Rotation2Dd(turn_rad) * line.direction};
-  std::vector<LocatedEdgePoint> course = blade.used;
-  for (LocatedEdgePoint& p : course) p = turned.Reflected(p);
-  return course;
+  return line.TurnedBy(2 * turn_rad).Reflected(blade.used);
 }
 
 // The sign of turns that bring the mirror image nearer to the edge itself.

@@ -241,15 +241,6 @@ int CountFound(const std::vector<cv::Mat>& pictures, ScrewSearch search) {
   }));
 }
 
-int CountFound(const std::vector<cv::Mat>& pictures, double radius) {
-  constexpr double kClear = 10;  // of half-lit rims
-  const ScrewSearch lit = SearchAround({0, 0}, radius);
-  ScrewSearch half_lit = lit;
-  half_lit.half_lit = true;
-  half_lit.least_evidence = kClear;
-  return CountFound(pictures, lit) + CountFound(pictures, half_lit);
-}
-
 struct PicturesWithoutHead {
   std::vector<cv::Mat> noise, brushed, bars;
 };
@@ -266,13 +257,24 @@ PicturesWithoutHead DrawWithoutHead(double radius, std::uint32_t draws) {
   return drawn;
 }
 
+// In so many pictures of each kind without a head of that radius, by none of the searches.
+void ExpectNoneFound(const std::vector<ScrewSearch>& searches, double radius, std::uint32_t draws) {
+  const auto [noise, brushed, bars] = DrawWithoutHead(radius, draws);
+  for (const ScrewSearch& search : searches) {
+    EXPECT_EQ(CountFound(noise, search), 0) << "noise, radius " << radius;
+    EXPECT_EQ(CountFound(brushed, search), 0) << "brushed plate, radius " << radius;
+    EXPECT_EQ(CountFound(bars, search), 0) << "crossing bars, radius " << radius;
+  }
+}
+
 TEST(FindScrew, SeesNoScrewWhereThereIsNone) {
-  constexpr std::uint32_t kDraws = 12;
+  constexpr double kClear = 10;  // of half-lit rims
   for (const double radius : {8.0, 20.0, 40.0}) {
-    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
-    EXPECT_EQ(CountFound(noise, radius), 0) << "noise, radius " << radius;
-    EXPECT_EQ(CountFound(brushed, radius), 0) << "brushed plate, radius " << radius;
-    EXPECT_EQ(CountFound(bars, radius), 0) << "crossing bars, radius " << radius;
+    const ScrewSearch lit = SearchAround({0, 0}, radius);
+    ScrewSearch half_lit = lit;
+    half_lit.half_lit = true;
+    half_lit.least_evidence = kClear;
+    ExpectNoneFound({lit, half_lit}, radius, 12);
   }
 }
 
@@ -506,24 +508,14 @@ TEST(FindScrew, SeesFarMoreLargeFlushHeadsByTheirFineRims) {
 }
 
 TEST(FindScrew, SeesNoFineRimWhereThereIsNone) {
-  constexpr std::uint32_t kDraws = 12;
   for (const double radius : {20.0, 40.0}) {
-    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
-    const ScrewSearch search = FineSearchAround({0, 0}, radius);
-    EXPECT_EQ(CountFound(noise, search), 0) << "noise, radius " << radius;
-    EXPECT_EQ(CountFound(brushed, search), 0) << "brushed plate, radius " << radius;
-    EXPECT_EQ(CountFound(bars, search), 0) << "crossing bars, radius " << radius;
+    ExpectNoneFound({FineSearchAround({0, 0}, radius)}, radius, 12);
   }
 }
 
 TEST(FindScrew, SeesNoScrewMagnifiedWhereThereIsNone) {
-  constexpr std::uint32_t kDraws = 40;
   for (const double radius : {5.0, 8.0}) {
-    const auto [noise, brushed, bars] = DrawWithoutHead(radius, kDraws);
-    const ScrewSearch search = MagnifiedSearchAround({0, 0}, radius);
-    EXPECT_EQ(CountFound(noise, search), 0) << "noise, radius " << radius;
-    EXPECT_EQ(CountFound(brushed, search), 0) << "brushed plate, radius " << radius;
-    EXPECT_EQ(CountFound(bars, search), 0) << "crossing bars, radius " << radius;
+    ExpectNoneFound({MagnifiedSearchAround({0, 0}, radius)}, radius, 40);
   }
 }
 

@@ -50,6 +50,13 @@ ScrewSearch SearchOverlap(const ScaleResult& scale, const Scene& scene, double s
   return SearchForHead(scale, scene, scene.shank_crotch_px + share * overlap, radius_px);
 }
 
+// Near where geometry puts the pivot.
+ScrewSearch SearchByGeometry(const HeadSearch& known) {
+  constexpr double kNear = 0.35;  // of the shank's width
+  return SearchForHead(
+      known.scale, known.scene, known.by_geometry.point_px, kNear * known.scene.shank_width_px);
+}
+
 // All about the overlap, for heads beyond doubt: crotches that shadows fill put it elsewhere.
 ScrewSearch SearchAllAbout(const ScaleResult& scale, const Scene& scene, double least_evidence) {
   constexpr double kOfOverlap = 0.6;
@@ -153,10 +160,7 @@ std::optional<Screw> LookForScrew(const HeadSearch& known) {
   if (clearest && (IsTooFlat(*clearest, known) || !IsCredibleThere(*clearest, known)))
     clearest.reset();
   for (const std::optional<Screw>& screw :
-       FindInEach(known,
-                  {SearchForHead(
-                       known.scale, scene, known.by_geometry.point_px, 0.35 * scene.shank_width_px),
-                   SearchOverlap(known.scale, scene, 0.25)})) {
+       FindInEach(known, {SearchByGeometry(known), SearchOverlap(known.scale, scene, 0.25)})) {
     if (clearest && clearest->evidence > kBeyondDoubt) break;
     if (!screw || !IsCredibleThere(*screw, known)) continue;
     if (!clearest || Credence(*screw) > Credence(*clearest)) clearest = screw;
@@ -241,9 +245,7 @@ std::optional<Screw> ClearestIn(const HeadSearch& known,
 // A flush head of which no more than a fine line shows, where geometry puts the pivot.
 std::optional<Screw> LookForFineRim(const HeadSearch& known) {
   constexpr double kLeastPx = 1.5 * kJudgedRadiusPx;  // smaller ones are seen as they are
-  constexpr double kNear = 0.35;                      // of the shank's width
-  ScrewSearch search = SearchForHead(
-      known.scale, known.scene, known.by_geometry.point_px, kNear * known.scene.shank_width_px);
+  ScrewSearch search = SearchByGeometry(known);
   search.min_semi_axis_px = std::max(search.min_semi_axis_px, kLeastPx);
   if (search.max_semi_axis_px < search.min_semi_axis_px) return std::nullopt;
   search.fine_rims = true;

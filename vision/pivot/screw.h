@@ -55,6 +55,11 @@ inline constexpr double kUnmistakable = 25, kBeyondDoubt = 15, kFaintHead = 10, 
   return screw.third_support < kLeastThird && !screw.slot;
 }
 
+// Whether either makes it a head that is to be doubted.
+[[nodiscard]] inline bool IsHardlySeen(const Screw& screw) {
+  return IsFaint(screw) || IsPartlySeen(screw);
+}
+
 // Heads are judged at a radius from this to twice as much: larger ones show more grain than rim.
 // Smaller ones as they are seen, or magnified.
 inline constexpr double kJudgedRadiusPx = 14;

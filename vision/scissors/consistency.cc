@@ -170,9 +170,8 @@ void RefuseUnconfirmedScene(const Scene& scene, const ScaleResult& scale, const 
   constexpr double kMost = 0.07;    // of the length; blades photographed at a slant differ by 0.05
   constexpr double kAlike = 0.015;  // of the length, in shape; where both are seen, up to 0.0125
   constexpr double kPlain = 0.8;    // quality; lines on a mat that cross look like worse ones
-  const bool faint = pivot.screw && IsFaint(*pivot.screw);
-  const bool contested = pivot.bent ? faint || (pivot.screw && IsPartlySeen(*pivot.screw))
-                                    : faint && scene.second_look;
+  const bool contested = pivot.screw && (pivot.bent ? IsHardlySeen(*pivot.screw)
+                                                    : scene.second_look && IsFaint(*pivot.screw));
   const bool seen = pivot.source != "geometry" && !contested;
   const bool at_a_slant = !scale.sheet || pivot.bent;
   const bool pass_alike =

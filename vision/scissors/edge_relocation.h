@@ -13,9 +13,8 @@ namespace bladecurve {
 // Blades mirror each other about the line through the pivot, unless both are bent to one side.
 // Where the edges do not, one of them is looked for anew, trimmed, and pivot->asymmetry says how
 // alike the two are then:
-// - one that was never located, where a clear one's mirror image, turned about the pivot, falls on
-// a
-//   line along all of it, if it is seen there and the two pass the pivot alike;
+// - one that was never located, where a clear one's mirror image, turned about the pivot, falls
+//   on a line along all of it, if it is seen there and the two pass the pivot alike;
 // - a lost one, where the other puts it, if it is as clear there as the other;
 // - of edges in a view of known tilt (markers), from a little difference on, the outer one further
 //   in, where a shadow begins that accounts for the difference;

@@ -42,9 +42,13 @@ std::vector<LocatedEdgePoint> MirrorLine::Reflected(std::vector<LocatedEdgePoint
   return points;
 }
 
+MirrorLine MirrorLine::TurnedBy(double rad) const {
+  return {map, pivot, Eigen::Rotation2Dd(0.5 * rad) * direction};
+}
+
 MirrorLine MirrorLine::MovedBy(const GapCourse& apart) const {
   const double aside = apart.powers[0], turn = apart.powers[1];
-  return {map, pivot + 0.5 * aside * Across(), Eigen::Rotation2Dd(0.5 * turn) * direction};
+  return {map, pivot + 0.5 * aside * Across(), TurnedBy(turn).direction};
 }
 
 bool KnowsMirror(const BladeView& view, const Pivot& pivot) {

@@ -32,6 +32,8 @@ struct MirrorLine {
   // A point of one edge as a point of the other.
   [[nodiscard]] LocatedEdgePoint Reflected(LocatedEdgePoint point) const;
   [[nodiscard]] std::vector<LocatedEdgePoint> Reflected(std::vector<LocatedEdgePoint> points) const;
+  // The line about which mirror images are turned about the pivot by that, x to y of the plane.
+  [[nodiscard]] MirrorLine TurnedBy(double rad) const;
   // The line about which mirror images lie where an edge does that is apart from them by a straight
   // course.
   [[nodiscard]] MirrorLine MovedBy(const GapCourse& apart) const;

@@ -273,10 +273,7 @@ std::optional<MirroredTrace> FindMirroredTrace(const BladeView& view,
   const double blur_px = std::hypot(BlurOr(other.edge, kUsualBlurPx), 0.3);  // and the pixel's box
   const double reach_px = (other.end.point_px - line.map.ImageFromPlane(line.pivot)).norm();
   const auto farthest = static_cast<int>((kOfDifference * difference_px + kNearestPx) / kStepPx);
-  const auto turned = [&](double step) {
-    const double half_rad = 0.5 * step * kStepPx / reach_px;
-    return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
-  };
+  const auto turned = [&](double step) { return line.TurnedBy(step * kStepPx / reach_px); };
   const std::vector<SeenTrace> traces = ParallelMap(2 * farthest + 1, [&](int step) {
     const Trace trace = turned(step - farthest).Reflected(other.used);
     return SeenTrace{PartsSeen(view, trace, inner, other), LeavesEnd(trace, inner, difference_px)};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/turned_mirror.h"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -67,7 +67,7 @@ struct SeenLine {
 std::vector<SeenLine> LinesSeen(const std::vector<Array3d>& shares) {
   constexpr double kSeen = 0.75;
   std::vector<SeenLine> lines;
-  for (std::size_t i = 0; i < shares.size();) {
+  for (std::size_t i = 0; i < shares.size(); ++i) {
     double sum = 0, moment = 0, light = 0, colour = 0;
     for (; i < shares.size() && shares[i].abs().maxCoeff() >= kSeen; ++i) {
       const double weight = shares[i].abs().maxCoeff();
@@ -77,7 +77,6 @@ std::vector<SeenLine> LinesSeen(const std::vector<Array3d>& shares) {
       colour = std::max(colour, shares[i].tail<2>().abs().maxCoeff());
     }
     if (sum > 0) lines.push_back({moment / sum, light > 0 && colour < kSeen});
-    if (sum == 0) ++i;
   }
   return lines;
 }
@@ -92,10 +91,7 @@ std::optional<MirrorLine> FindTurnedMirror(const BladeView& view,
   const Vector2d pivot_px = line.map.ImageFromPlane(line.pivot);
   const double step_rad = kStepPx / (edge.back().trend_px - pivot_px).norm();
   const int most = static_cast<int>(kMostRad / step_rad);  // to either side
-  const auto turned = [&](double steps) {
-    const double half_rad = 0.5 * steps * step_rad;
-    return MirrorLine{line.map, line.pivot, Eigen::Rotation2Dd(half_rad) * line.direction};
-  };
+  const auto turned = [&](double steps) { return line.TurnedBy(steps * step_rad); };
   const LocatedEdgePoint end = line.Reflected(edge.back());
   const Vector2d onwards = turned(1).Reflected(edge.back()).trend_px - end.trend_px;
   const double inwards = onwards.dot(end.normal) < 0 ? 1 : -1;
