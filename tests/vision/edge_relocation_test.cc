@@ -910,7 +910,26 @@ TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
   }
 }
 
-// But no view makes edges unlike in shape.
+// But no view makes edges unlike in shape: the doubtful one strays.
+TEST(RelocateUnlikeEdges, BorrowsTheDoubtfulEdgeOfUnlikeShapeWithoutMarkers) {
+  constexpr double kStraysPx = 10, kClosePx = 0.3;
+  for (const double doubt : {0.5, 0.9}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& upper = measured.blades.upper;
+    Measured::MakeClear(&measured.blades.lower);
+    Bulge(&measured, &upper, 0.6, 1, -kStraysPx);
+    upper.edge.ambiguity = doubt;
+    upper.edge.common_sigma_px = 0.1;
+    measured.scale.sheet.reset();
+    ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    const double off_px = FarFrom(measured.truth.upper, DistalThird(upper));
+    EXPECT_EQ(off_px<kClosePx, doubt> 0.5) << off_px;
+    EXPECT_GE(upper.edge.ambiguity, 0.6);
+  }
+}
+
+// Where none is doubtful, either may.
 TEST(RelocateUnlikeEdges, DoubtsBothEdgesOfUnlikeShapeWithoutMarkers) {
   constexpr double kBulgePx = 16;
   for (const bool unlike : {false, true}) {

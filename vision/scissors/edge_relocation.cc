@@ -330,7 +330,10 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
   if (RelocateLostOne(view, pivot, blades)) return;
   if (!KnowsMirror(view, pivot)) {
     if (!AssumesMirror(view, pivot)) return;
-    if (!AreSuspect(pivot.asymmetry)) return DoubtUnlikeShapes(pivot, blades);
+    if (!AreSuspect(pivot.asymmetry)) {
+      if (!BorrowDoubtfulOne(view, pivot, blades)) DoubtUnlikeShapes(pivot, blades);
+      return;
+    }
     // A slanted view may part them as well; but then nothing is seen where they would agree.
     if (RelocateShadowedOne(view, pivot, blades)) return;
     if (AreFarUnlike(pivot.asymmetry)) RelocateInnerOne(view, pivot, blades);
