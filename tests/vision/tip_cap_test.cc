@@ -61,6 +61,28 @@ TEST(FitTipCap, EndsWhereTheArcBegins) {
   }
 }
 
+// Rounded off, a tip shows the lamp along its rim.
+TEST(FitTipCap, EndsAtTheOuterSideOfABrightRim) {
+  constexpr double kRadius = 8, kRimPx = 3, kClose = 0.7;
+  constexpr uchar kMetal = 80, kGlint = 250;
+  const Vector2d center(kTip - kRadius, kEdge - kRadius);
+  for (const int ground : {60, 110, 140}) {
+    cv::Mat picture(160, 340, CV_8UC1, cv::Scalar(ground));
+    picture.setTo(kMetal, Blade(kRadius) < 140);
+    picture.forEach<uchar>([&](uchar& value, const int* at) {
+      const Vector2d from_center = Vector2d(at[1], at[0]) - center;
+      const bool in_rim = from_center.x() > 0 && from_center.norm() > kRadius - kRimPx;
+      if (in_rim && value == kMetal) value = kGlint;
+    });
+    cv::GaussianBlur(picture, picture, {}, 0.8);
+    const auto cap = FitTipCap(picture, EdgeAlong(kEdge), kSearch);
+    ASSERT_TRUE(cap) << ground;
+    EXPECT_NEAR(cap->end_px.x(), kTip - kRadius, 2 * kClose) << ground;
+    EXPECT_NEAR(cap->end_px.x() + cap->radius_px, kTip, kClose) << ground;
+    EXPECT_LT(cap->step, 0) << ground;
+  }
+}
+
 // A facet's border crosses the tip as an arc that leaves the edge long before it ends.
 TEST(FitTipCap, BelievesTheEdgeThatGoesOnMoreThanAnArcInsideTheBlade) {
   constexpr double kAlong = 3;  // px

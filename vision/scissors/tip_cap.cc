@@ -46,19 +46,34 @@ std::optional<Line> LineAt(
   return line;
 }
 
-// The strongest step along one line, if it stands out from the others on it.
+// Where light falls again beyond a sample at which it rises, if that is a bright rim's inner side;
+// else that sample. A blade ends at the outer side.
+std::size_t PastRim(const std::vector<double>& steps, std::size_t at, double widest_px) {
+  constexpr double kBack = 0.5;  // of the rise
+  const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(at);
+  const auto widest = static_cast<std::ptrdiff_t>(widest_px / kSpacing);
+  const auto lowest = std::min_element(begin, begin + std::min(widest + 1, steps.end() - begin));
+  return -*lowest > kBack * *begin ? static_cast<std::size_t>(lowest - steps.begin()) : at;
+}
+
+// The strongest step along one line, if it stands out from the others on it, or the outer side of
+// the rim that begins there.
 std::optional<EndSeen> LookAlong(
     const cv::Mat& grey, const EdgeAxis& axis, double depth, double from, double to) {
   constexpr double kMargin = kHalf * kSpacing;
+  constexpr double kWidestRim = 0.2;  // of what is looked at
   const std::optional<Line> line = LineAt(grey, axis, depth, from - kMargin, to + kMargin);
   if (!line) return std::nullopt;
   std::vector<double> steps(line->light.size(), 0.0);
   for (std::size_t i = kHalf; i + kHalf < steps.size(); ++i) steps[i] = line->StepAt(i);
   const auto weaker = [](double a, double b) { return std::abs(a) < std::abs(b); };
-  const auto best_at = static_cast<std::size_t>(
+  const auto strongest_at = static_cast<std::size_t>(
       std::max_element(steps.begin(), steps.end(), weaker) - steps.begin());
+  if (std::abs(steps[strongest_at]) < kLeastGrey) return std::nullopt;
+  const std::size_t best_at = steps[strongest_at] > 0
+                                  ? PastRim(steps, strongest_at, kWidestRim * (to - from))
+                                  : strongest_at;
   const double best = std::abs(steps[best_at]);
-  if (best < kLeastGrey) return std::nullopt;
   // Sub-sample by the parabola through the peak.
   double shift = 0;
   if (best_at > 0 && best_at + 1 < steps.size()) {
