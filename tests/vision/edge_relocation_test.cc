@@ -557,11 +557,25 @@ TEST(BorrowDoubtfulOne, GoesOnAsTheClearEdgeDoesWhereTheOtherOneStraysIntoTheBla
   };
   for (const bool upper : {true, false}) {
     EXPECT_TRUE(borrowed(upper, kDoubt, 0, {})) << upper;
-    EXPECT_FALSE(borrowed(upper, 0, 0, {})) << upper << ": both are clear";
+    EXPECT_TRUE(borrowed(upper, 0, 0, {})) << upper << ": clear, it leaves a blade's course";
+    EXPECT_FALSE(borrowed(upper, kDoubt, kDoubt, {})) << upper << ": both may have strayed";
     EXPECT_FALSE(borrowed(upper, kDoubt, kFaint, {})) << upper << ": the other one may be wrong";
     EXPECT_FALSE(borrowed(upper, kDoubt, 0, {0, -10})) << upper << ": it strays along most of it";
     EXPECT_FALSE(borrowed(upper, kDoubt, 0, {0.6, 10})) << upper << ": the rest may have strayed";
   }
+}
+
+TEST(BorrowDoubtfulOne, IsNotMisledByAPivotThatLiesAside) {
+  constexpr double kAsidePx = 1, kClosePx = 0.3;
+  Measured measured{SceneWithMarkers()};
+  LocatedBlade& lower = measured.blades.lower;
+  Measured::MakeClear(&measured.blades.upper);
+  Bulge(&measured, &lower, 0.6, 1, -10);
+  lower.edge.ambiguity = 0.9;
+  lower.edge.common_sigma_px = 0.1;
+  measured.pivot.point_px.y() += kAsidePx;  // the tips lie right
+  ASSERT_TRUE(BorrowDoubtfulOne(measured.View(), measured.pivot, &measured.blades));
+  EXPECT_LT(FarFrom(measured.truth.lower, DistalThird(lower)), kClosePx);
 }
 
 TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
@@ -913,19 +927,38 @@ TEST(RelocateUnlikeEdges, FindsTheFarBetterSeenEdgeWithoutMarkers) {
 // But no view makes edges unlike in shape: the doubtful one strays.
 TEST(RelocateUnlikeEdges, BorrowsTheDoubtfulEdgeOfUnlikeShapeWithoutMarkers) {
   constexpr double kStraysPx = 10, kClosePx = 0.3;
-  for (const double doubt : {0.5, 0.9}) {
+  for (const double doubt_of_other : {0.0, 0.4}) {
     Measured measured{SceneWithMarkers()};
-    LocatedBlade& upper = measured.blades.upper;
-    Measured::MakeClear(&measured.blades.lower);
+    LocatedBlade &upper = measured.blades.upper, &lower = measured.blades.lower;
+    Measured::MakeClear(&lower);
+    lower.edge.ambiguity = doubt_of_other;
     Bulge(&measured, &upper, 0.6, 1, -kStraysPx);
-    upper.edge.ambiguity = doubt;
+    upper.edge.ambiguity = 0.9;
     upper.edge.common_sigma_px = 0.1;
     measured.scale.sheet.reset();
     ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry));
     Relocate(&measured);
     const double off_px = FarFrom(measured.truth.upper, DistalThird(upper));
-    EXPECT_EQ(off_px<kClosePx, doubt> 0.5) << off_px;
+    EXPECT_EQ((off_px < kClosePx), (doubt_of_other == 0)) << off_px;
     EXPECT_GE(upper.edge.ambiguity, 0.6);
+  }
+}
+
+// Nor if the part that strays makes them pass the pivot unlike, and nothing is seen elsewhere.
+TEST(RelocateUnlikeEdges, BorrowsTheEdgeOfWhichSomeStraysSoFarThatTheyPassThePivotUnlike) {
+  constexpr double kStraysPx = 10, kClosePx = 0.3;
+  for (const bool with_markers : {true, false}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& lower = measured.blades.lower;
+    Measured::MakeClear(&measured.blades.upper);
+    Measured::MakeClear(&lower);
+    measured.Shift(&lower, [&](double share) { return share < 0.5 ? 0 : -kStraysPx; });
+    measured.photo = Measured::PhotoOf(testing::Grained(testing::BareSheet()));
+    if (!with_markers) measured.scale.sheet.reset();
+    ASSERT_TRUE(AreSuspect(measured.pivot.asymmetry));
+    Relocate(&measured);
+    EXPECT_LT(FarFrom(measured.truth.lower, DistalThird(lower)), kClosePx) << with_markers;
+    EXPECT_GE(lower.edge.ambiguity, 0.6);
   }
 }
 

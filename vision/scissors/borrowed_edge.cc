@@ -45,16 +45,22 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
-// A turn about the pivot, rad, that as many places of a gap agree with as with any other.
-double CommonestTurn(const EdgeGap& gap, double within_mm) {
-  std::size_t most = 0;
-  double commonest = 0;
-  for (std::size_t k = 0; k < gap.along.size(); ++k) {
-    const double turn = gap.apart[k] / gap.along[k];
-    std::size_t agree = 0;
-    for (std::size_t i = 0; i < gap.along.size(); ++i)
-      if (std::abs(gap.apart[i] - turn * gap.along[i]) < within_mm) ++agree;
-    if (agree > most) most = agree, commonest = turn;
+// The straight course, through two places of a gap, that as many others keep to as to any other.
+GapCourse CommonestCourse(const EdgeGap& gap, double within_mm) {
+  constexpr std::size_t kEnough = 40;  // places that are tried
+  const std::size_t count = gap.along.size(), stride = 1 + count / kEnough;
+  std::ptrdiff_t most = 0;
+  GapCourse commonest;
+  for (std::size_t i = 0; i < count; i += stride) {
+    for (std::size_t j = i + count / 3; j < count; j += stride) {
+      if (j == i) continue;
+      GapCourse course;
+      course.Fit(gap, 2, [&](std::size_t k) { return k == i || k == j; });
+      std::ptrdiff_t agree = 0;
+      for (std::size_t k = 0; k < count; ++k)
+        if (std::abs(gap.apart[k] - course.At(gap.along[k])) < within_mm) ++agree;
+      if (agree > most) most = agree, commonest = course;
+    }
   }
   return commonest;
 }
@@ -69,9 +75,9 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
   const EdgeGap gap = GapFromMirrored(line, blade, other);
   if (gap.along.empty()) return std::nullopt;
   const double length_mm = gap.along.back(), within_mm = kGroundAlike * length_mm;
-  const double turn = CommonestTurn(gap, within_mm);
+  const GapCourse commonest = CommonestCourse(gap, within_mm);
   const auto agrees = [&](std::size_t i) {
-    return std::abs(gap.apart[i] - turn * gap.along[i]) < within_mm;
+    return std::abs(gap.apart[i] - commonest.At(gap.along[i])) < within_mm;
   };
   GapCourse course;
   course.Fit(gap, 2, agrees);
@@ -87,6 +93,11 @@ std::optional<MirrorLine> LineOfMost(const MirrorLine& line,
       static_cast<double>(astray) < kRest * places || AreUnlike(course.powers[0] / length_mm))
     return std::nullopt;
   return line.MovedBy(course);
+}
+
+// Whether another line than the blade's border may have been followed along some of an edge.
+bool MayStray(const LocatedBlade& blade) {
+  return IsDoubtful(blade.edge) || IsKinked(KinkOf(blade), blade.edge);
 }
 
 // About a head that may be none edges say nothing of each other, nor does one that is in doubt.
@@ -116,8 +127,9 @@ double ShareApart(const MirroredTrace& trace,
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades) {
   constexpr double kSure = 0.2;  // ambiguity
   if (pivot.screw && IsFaint(*pivot.screw)) return false;
-  const auto [doubtful, other] = OneOf(blades, IsDoubtful(blades->upper.edge));
-  if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge) || other.edge.ambiguity > kSure)
+  const bool upper = MayStray(blades->upper);
+  const auto [doubtful, other] = OneOf(blades, upper);
+  if (upper == MayStray(blades->lower) || !IsClear(other.edge) || other.edge.ambiguity > kSure)
     return false;
   const auto line = LineOfMost(LineBetween(view, pivot, *blades), doubtful, other);
   if (!line) return false;

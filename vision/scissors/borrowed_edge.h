@@ -35,10 +35,9 @@ void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 // half as much, standard, as the two lie apart. Neither where that is further than bevels are wide.
 void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
-// Of edges that pass the pivot alike but are unlike in shape, a doubtful one is replaced by the
-// mirror image of the other, if that is clear, displaced to where most of the doubtful one lies on
-// it, if some of the rest lies within the blade then: it has strayed. In a view of known tilt.
-// Whether it was.
+// Of edges that are unlike in shape, one that is doubtful or kinked is replaced by the mirror image
+// of the other, if that is clear and runs smoothly, displaced to where most of the doubtful one lies
+// on it, if some of the rest lies within the blade then: it has strayed. Whether it was.
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve

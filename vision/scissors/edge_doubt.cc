@@ -120,24 +120,29 @@ Kink KinkOf(const LocatedBlade& blade) {
           (blade.used.back().trend_px - blade.used.front().trend_px).norm()};
 }
 
+bool IsKinked(const Kink& kink, const LocatedEdge& edge) {
+  constexpr double kKinked = 0.003;  // of the edge's length
+  constexpr double kLeastPx = 0.5;
+  return kink.off_px > std::max({kKinked * kink.length_px, kLeastPx, TotalSigma(edge)});
+}
+
 void DoubtKinkedEdges(Blades* blades) {
-  constexpr double kKinked = 0.003, kTwoLines = 0.02;  // of the edge's length
-  constexpr double kLeastPx = 0.5, kTimes = 2;
+  constexpr double kTwoLines = 0.02;  // of the edge's length
+  constexpr double kTimes = 2;
   const std::array<LocatedBlade*, 2> both{&blades->upper, &blades->lower};
   const std::vector<Kink> kinks =
       ParallelMap(2, [&](int i) { return KinkOf(*both[static_cast<std::size_t>(i)]); });
   for (std::size_t i = 0; i < both.size(); ++i) {
     LocatedBlade* const blade = both[i];
-    const auto& [kink_px, length_px] = kinks[i];
-    if (blade == &blades->upper && kink_px > kTwoLines * length_px) {
+    const double kink_px = kinks[i].off_px;
+    if (blade == &blades->upper && kink_px > kTwoLines * kinks[i].length_px) {
       throw Refused(Reason::kLowContrast,
                     "edges: the upper cutting edge leaves a blade's smooth course by " +
                         std::to_string(std::lround(kink_px)) +
                         " px, as where the line of a bevel or the border of a shadow is followed "
                         "part of the way; use another background or light");
     }
-    if (kink_px > std::max({kKinked * length_px, kLeastPx, TotalSigma(blade->edge)}))
-      Doubt(&blade->edge, kTimes * kink_px);
+    if (IsKinked(kinks[i], blade->edge)) Doubt(&blade->edge, kTimes * kink_px);
   }
 }
 

@@ -61,9 +61,12 @@ struct Kink {
 };
 [[nodiscard]] Kink KinkOf(const LocatedBlade& blade);
 
-// Where that is 0.3 % of the length, half a pixel and more than is known of the edge, another line
-// was followed part of the way: the edge becomes ambiguous, and less certain by twice as much.
-// Throws Refused{kLowContrast} where the upper edge is off by 2 %.
+// Whether that is 0.3 % of the length, half a pixel and more than is known of the edge: another
+// line was followed part of the way.
+[[nodiscard]] bool IsKinked(const Kink& kink, const LocatedEdge& edge);
+
+// A kinked edge becomes ambiguous, and less certain by twice as much as it is off. Throws
+// Refused{kLowContrast} where the upper edge is off by 2 %.
 void DoubtKinkedEdges(Blades* blades);
 
 // Both edges lie about as far from the lens. One that looks softer than the other has another step

@@ -340,6 +340,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     if (NoneMoved(*blades)) RelocateFarClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
     if (NoneMoved(*blades)) RelocateFurtherOut(view, pivot, blades);
+    if (NoneMoved(*blades)) BorrowDoubtfulOne(view, pivot, blades);
     return;
   }
   if (RelocateShadowedOne(view, pivot, blades)) return;
@@ -348,6 +349,7 @@ void Relocate(const BladeView& view, const Pivot& pivot, Blades* blades) {
     RelocateClearerOne(view, pivot, blades);
     if (NoneMoved(*blades)) SettleInnerOne(view, pivot, blades);
     if (NoneMoved(*blades)) RelocateFurtherOut(view, pivot, blades);
+    if (NoneMoved(*blades)) BorrowDoubtfulOne(view, pivot, blades);
     if (NoneMoved(*blades)) BorrowOuterOne(view, pivot, blades);
     if (NoneMoved(*blades)) DoubtIfBeyondPivot(pivot, blades);
   } else if (!SettleShapes(view, pivot, blades)) {

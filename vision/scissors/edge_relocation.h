@@ -27,8 +27,9 @@ namespace bladecurve {
 //   further out, no further than bevels are wide, if there it mirrors the other by far better; if
 //   neither helps, the vaguer one is doubted by as much as they differ;
 // - of edges that pass the pivot alike but are unlike in shape, or of which one is doubtful and
-//   has a rival, that one, if it is seen where the other puts it; if a doubtful one is not, the
-//   other's mirror image, if that is clear and most of the doubtful one lies on it.
+//   has a rival, that one, if it is seen where the other puts it;
+// - one that is doubtful or kinked, if nothing else helps, along the other's mirror image, if that
+//   is clear and most of it lies on that; whoever knows the tilt.
 // None is moved to beyond the part of its blade that faces the gap.
 // Where nobody knows the tilt edges far unlike are looked for inside a shadow or, if they are not
 // clear, on a faint border, the upper one only if it has a rival; one that has a rival is taken
