@@ -36,8 +36,8 @@ void BorrowOuterOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 void SettleInnerOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 // Of edges that are unlike in shape, one that is doubtful or kinked is replaced by the mirror image
-// of the other, if that is clear and runs smoothly, displaced to where most of the doubtful one lies
-// on it, if some of the rest lies within the blade then: it has strayed. Whether it was.
+// of the other, if that is clear and runs smoothly, displaced to where most of the doubtful one
+// lies on it, if some of the rest lies within the blade then: it has strayed. Whether it was.
 bool BorrowDoubtfulOne(const BladeView& view, const Pivot& pivot, Blades* blades);
 
 }  // namespace bladecurve
