@@ -60,6 +60,25 @@ TEST(FindLostEnds, KeepsTheDoubtThatARivalMakes) {
   EXPECT_DOUBLE_EQ(measured.blades.upper.edge.rival_px, kRivalPx);
 }
 
+// As of a curved blade, which does not go on quite as the other one does.
+TEST(FindLostEnds, TakesTheTipThatIsSeenWhereTheEdgeIsMuchVaguer) {
+  constexpr double kClosePx = 2, kFarSurer = 0.05;
+  for (const bool arc_seen : {false, true}) {
+    Measured measured{SceneWithMarkers()};
+    LocatedBlade& blade = measured.blades.upper;
+    LoseEnd(true, &measured);
+    for (LocatedEdgePoint& p : blade.edge.points) p.sigma_px *= kFarSurer;
+    blade.edge.common_sigma_px = 0;
+    blade.end.point_px = blade.used.back().point_px;
+    blade.end.arc_seen = arc_seen;
+    const std::vector<Eigen::Vector2d> before = TrendOf(blade.edge);
+    FindLostEnds(measured.View(), &measured.blades);
+    EXPECT_EQ(TrendOf(blade.edge), before);
+    const double off_px = (blade.end.point_px - measured.truth.upper.px.back()).norm();
+    EXPECT_EQ(off_px < kClosePx, !arc_seen) << off_px;
+  }
+}
+
 TEST(FindLostEnds, LeavesWhatTheOtherOneCannotTell) {
   const auto unchanged = [](const char* why, const auto& spoil) {
     Measured measured{SceneWithMarkers()};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/lost_end.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -61,6 +62,19 @@ std::optional<EdgeGuess> GuessBeyond(const LocatedBlade& blade,
   return guess;
 }
 
+// Ends a blade at the arc of a tip that is certain where it is not seen to end itself.
+void EndWhereTipIsSeen(const DistalEnd& tip, LocatedBlade* blade) {
+  if (!tip.certain || blade->end.arc_seen) return;
+  const Vector2d along = (blade->used.back().point_px - blade->used.front().point_px).normalized();
+  const auto lies_before = [&](const LocatedEdgePoint& p) {
+    return p.inlier && (p.point_px - tip.point_px).dot(along) <= 0;
+  };
+  const auto& points = blade->edge.points;
+  blade->end = tip;
+  blade->end.index =
+      static_cast<std::size_t>(std::count_if(points.begin(), points.end(), lies_before));
+}
+
 void FindLostEnd(const BladeView& view,
                  const LocatedBlade& other,
                  const MirrorLine& line,
@@ -79,7 +93,10 @@ void FindLostEnd(const BladeView& view,
   const bool is_whole = found && IsClear(found->edge) &&
                         LostShare(found->edge) < kLess * LostShare(blade->edge) &&
                         Information(found->edge) > kNoVaguer * Information(blade->edge);
-  if (!is_whole) return;
+  if (!is_whole) {
+    if (found) EndWhereTipIsSeen(found->end, blade);
+    return;
+  }
   KeepRival(blade->edge, &found->edge);
   *blade = *std::move(found);
 }
