@@ -578,6 +578,20 @@ TEST(BorrowDoubtfulOne, IsNotMisledByAPivotThatLiesAside) {
   EXPECT_LT(FarFrom(measured.truth.lower, DistalThird(lower)), kClosePx);
 }
 
+// What is seen where the other one puts it is no surer than what was.
+TEST(RelocateUnlikeEdges, BorrowsADoubtfulEdgeOfWhichAnEndStrays) {
+  constexpr double kStraysPx = 4, kFrom = 0.73;
+  Measured measured{SceneWithMarkers()};
+  LocatedBlade& lower = measured.blades.lower;
+  Measured::MakeClear(&measured.blades.upper);
+  measured.Shift(&lower, [&](double share) { return share < kFrom ? 0 : -kStraysPx; });
+  lower.edge.ambiguity = 0.9;
+  lower.edge.common_sigma_px = 0;
+  ASSERT_FALSE(AreSuspect(measured.pivot.asymmetry));
+  Relocate(&measured);
+  EXPECT_EQ(lower.moved, "the other one mirrored, on which most of it lies");
+}
+
 TEST(BorrowInnerOne, TakesNoDoubtfulEdgeForAMirror) {
   for (const bool doubtful : {false, true}) {
     Measured measured = WithMirroringBevelBelow(Bevelled::kOver);

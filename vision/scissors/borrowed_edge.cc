@@ -45,18 +45,18 @@ bool MayBeLineOfBevel(const LocatedBlade& inner, const LocatedBlade& outer, cons
          std::max(TypicalContrast(inner.edge), TypicalContrast(outer.edge)) < kBrighter;
 }
 
-// The straight course, through two places of a gap, that as many others keep to as to any other.
+// The straight course through two places of a gap, a third of it apart or more, that as many others
+// keep to as to any other.
 GapCourse CommonestCourse(const EdgeGap& gap, double within_mm) {
   constexpr std::size_t kEnough = 40;  // places that are tried
   const std::size_t count = gap.along.size(), stride = 1 + count / kEnough;
-  std::ptrdiff_t most = 0;
+  std::size_t most = 0;
   GapCourse commonest;
   for (std::size_t i = 0; i < count; i += stride) {
-    for (std::size_t j = i + count / 3; j < count; j += stride) {
-      if (j == i) continue;
-      GapCourse course;
-      course.Fit(gap, 2, [&](std::size_t k) { return k == i || k == j; });
-      std::ptrdiff_t agree = 0;
+    for (std::size_t j = i + 1 + count / 3; j < count; j += stride) {
+      const double turn = (gap.apart[j] - gap.apart[i]) / (gap.along[j] - gap.along[i]);
+      const GapCourse course{0, 1, {gap.apart[i] - turn * gap.along[i], turn, 0}};
+      std::size_t agree = 0;
       for (std::size_t k = 0; k < count; ++k)
         if (std::abs(gap.apart[k] - course.At(gap.along[k])) < within_mm) ++agree;
       if (agree > most) most = agree, commonest = course;

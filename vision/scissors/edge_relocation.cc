@@ -67,9 +67,10 @@ double BeyondPivotPx(double asymmetry, const Pivot& pivot, const Blades& blades)
   return std::sqrt(std::max(0.0, off_px * off_px - by_pivot_px * by_pivot_px));
 }
 
-// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt. One that is
-// just vague, without a rival, stays: a clearer line close by is a bevel's. Where it would mirror
-// the other one only if it lay nearer to its rival, the border may lie between the two lines.
+// A doubtful edge, where the other one, if clear, puts it, if that leaves less doubt; else, if some
+// of it strays, along that one's mirror image. One that is just vague, without a rival, stays: a
+// clearer line close by is a bevel's. Where it would mirror the other one only if it lay nearer to
+// its rival, the border may lie between the two lines.
 // `look(upper)`: where the other one puts that one.
 template <typename Look>
 void RelocateDoubtfulOne(const BladeView& view,
@@ -82,16 +83,16 @@ void RelocateDoubtfulOne(const BladeView& view,
   if (!IsDoubtful(doubtful.edge) || !IsClear(other.edge)) return;
   if (doubtful.edge.ambiguity < kRival) return;
   std::optional<RelocatedBlade> found = look(upper);
-  if (!found) {
+  const LocatedEdge& before = doubtful.edge;
+  const bool is_clearer = found && found->blade.edge.ambiguity < kLess * before.ambiguity &&
+                          found->blade.edge.common_sigma_px <= before.common_sigma_px;
+  if (!is_clearer) {
     BorrowDoubtfulOne(view, pivot, blades);
     return;
   }
-  const LocatedEdge& before = doubtful.edge;
-  LocatedEdge& after = found->blade.edge;
-  if (after.ambiguity >= kLess * before.ambiguity || after.common_sigma_px > before.common_sigma_px)
-    return;
   const bool towards_rival = LiesInwards(doubtful, pivot) == (before.rival_px > 0);
-  if (towards_rival) AddSigma(&after, BeyondPivotPx(found->asymmetry, pivot, *blades));
+  const double off_px = BeyondPivotPx(found->asymmetry, pivot, *blades);
+  if (towards_rival) AddSigma(&found->blade.edge, off_px);
   Replace(*found, kWhereMirrored, &doubtful);
 }
 
