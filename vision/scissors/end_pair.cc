@@ -54,12 +54,7 @@ Reach ReachOf(const PlaneMap& map,
 void MoveEnd(const Reach& reach, double by, LocatedBlade* blade) {
   DistalEnd& end = blade->end;
   end.point_px += by / reach.per_px * reach.along_px;
-  end.index = 0;
-  for (const LocatedEdgePoint& p : blade->edge.points) {
-    if (!p.inlier) continue;
-    if ((p.point_px - end.point_px).dot(reach.along_px) > 0) break;
-    ++end.index;
-  }
+  end.index = InliersBefore(blade->edge, end.point_px, reach.along_px);
 }
 
 void SetSigma(const Reach& reach, double sigma, LocatedBlade* blade) {

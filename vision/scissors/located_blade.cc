@@ -171,6 +171,18 @@ void KeepBeyondCrossing(Blades* blades) {
   blades->lower.used = std::move(lower);
 }
 
+std::size_t InliersBefore(const LocatedEdge& edge,
+                          const Vector2d& place_px,
+                          const Vector2d& along) {
+  std::size_t count = 0;
+  for (const LocatedEdgePoint& p : edge.points) {
+    if (!p.inlier) continue;
+    if ((p.point_px - place_px).dot(along) > 0) break;
+    ++count;
+  }
+  return count;
+}
+
 void PlaceEndOnCourse(LocatedBlade* blade) {
   const std::optional<PlaceOnCourse> place =
       AbreastOnCourse(blade->edge.points,

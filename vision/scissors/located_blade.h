@@ -46,6 +46,12 @@ void KeepFree(const Scene& scene, LocatedBlade* blade);
 // less than half of an edge would be left.
 void KeepBeyondCrossing(Blades* blades);
 
+// How many of the edge's inliers lie before a place, up to the first beyond it: the index of an end
+// there. `along` points towards the tip.
+[[nodiscard]] std::size_t InliersBefore(const LocatedEdge& edge,
+                                        const Eigen::Vector2d& place_px,
+                                        const Eigen::Vector2d& along);
+
 // Moves the distal end across the edge, onto the course of its points: the arc of the tip tells how
 // far the edge goes, not where it lies. Sets the end's across_sigma_px.
 void PlaceEndOnCourse(LocatedBlade* blade);

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "vision/scissors/lost_end.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -66,13 +65,8 @@ std::optional<EdgeGuess> GuessBeyond(const LocatedBlade& blade,
 void EndWhereTipIsSeen(const DistalEnd& tip, LocatedBlade* blade) {
   if (!tip.certain || blade->end.arc_seen) return;
   const Vector2d along = (blade->used.back().point_px - blade->used.front().point_px).normalized();
-  const auto lies_before = [&](const LocatedEdgePoint& p) {
-    return p.inlier && (p.point_px - tip.point_px).dot(along) <= 0;
-  };
-  const auto& points = blade->edge.points;
   blade->end = tip;
-  blade->end.index =
-      static_cast<std::size_t>(std::count_if(points.begin(), points.end(), lies_before));
+  blade->end.index = InliersBefore(blade->edge, tip.point_px, along);
 }
 
 void FindLostEnd(const BladeView& view,

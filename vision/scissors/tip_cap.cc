@@ -46,10 +46,11 @@ std::optional<Line> LineAt(
   return line;
 }
 
-// Where light falls again beyond a sample at which it rises, if that is a bright rim's inner side;
-// else that sample. A blade ends at the outer side.
+// Where light falls again beyond a sample, if it rises into a bright rim there; else that sample. A
+// blade ends at the rim's outer side.
 std::size_t PastRim(const std::vector<double>& steps, std::size_t at, double widest_px) {
   constexpr double kBack = 0.5;  // of the rise
+  if (steps[at] <= 0) return at;
   const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(at);
   const auto widest = static_cast<std::ptrdiff_t>(widest_px / kSpacing);
   const auto lowest = std::min_element(begin, begin + std::min(widest + 1, steps.end() - begin));
@@ -70,9 +71,7 @@ std::optional<EndSeen> LookAlong(
   const auto strongest_at = static_cast<std::size_t>(
       std::max_element(steps.begin(), steps.end(), weaker) - steps.begin());
   if (std::abs(steps[strongest_at]) < kLeastGrey) return std::nullopt;
-  const std::size_t best_at = steps[strongest_at] > 0
-                                  ? PastRim(steps, strongest_at, kWidestRim * (to - from))
-                                  : strongest_at;
+  const std::size_t best_at = PastRim(steps, strongest_at, kWidestRim * (to - from));
   const double best = std::abs(steps[best_at]);
   // Sub-sample by the parabola through the peak.
   double shift = 0;
